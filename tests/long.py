@@ -82,12 +82,12 @@ RUNS = {
     "linux-line": Run(
         "a soft PLC by matiec against the simulator, 1 % of the frames damaged (SECONDS)",
         "an hour",
-        ("tests.stand.softplc {SECONDS}",),
+        ("tests.desk.simulate.softplc {SECONDS}",),
     ),
     "desk-line": Run(
         "`driveblocks run` at pymodbus's server, 1 % of the frames damaged (SECONDS)",
         "an hour",
-        ("tests.stand.deskplc {SECONDS}",),
+        ("tests.desk.simulate.deskplc {SECONDS}",),
     ),
 }
 

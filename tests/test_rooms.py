@@ -9,9 +9,8 @@ from tests.rooms import ROOT, graph, room
 from driveblocks.maps import catalog
 
 ROOMS = (
-    "structured_text", "driveblocks", "console", "modbus", "maps", "simulator", "desk", "reference", "show",
-    "explain", "render", "diff", "platforms", "docs", "testing", "prove", "output", "plc", "site", "stand", "commands",
-    "cli", "__main__",
+    "structured_text", "driveblocks", "console", "modbus", "maps", "simulator", "reference", "show", "render", "diff",
+    "platforms", "docs", "testing", "prove", "output", "desk", "commands", "cli", "__main__",
 )  # fmt: skip
 """From the bottom up; `driveblocks` is the package's own file, `structured_text` a package of its own."""
 FLOORS = ("structured_text", "visible", "files", "language", "findings", "engines", "cli", "__main__")
@@ -27,13 +26,6 @@ def test_nothing_imports_from_a_room_above() -> None:
         if other in graph() and ROOMS.index(room(other)) > ROOMS.index(room(name))
     ]
     assert not upwards
-
-
-def test_simulated_drives_need_nothing_that_explains_frames_or_runs_programs() -> None:
-    stand = {other for name, others in graph().items() if room(name) == "stand" for other in others}
-    assert not [name for name in stand if name in graph() and room(name) == "explain"]
-    # a word such as chf@1:60:CurrentScale=0.1 means the same to `simulate` as to `run --simulate`
-    assert {name for name in stand if name in graph() and room(name) == "plc"} == {"driveblocks.plc.drives"}
 
 
 def test_no_modules_go_in_a_circle() -> None:

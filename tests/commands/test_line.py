@@ -9,8 +9,8 @@ from click.testing import CliRunner, Result
 from rich.cells import cell_len
 
 from driveblocks.cli import app
-from driveblocks.site import kept
-from driveblocks.site.found import Found, Way
+from driveblocks.desk.site import kept
+from driveblocks.desk.site.found import Found, Way
 
 EXAMPLE = str(Path(__file__).parents[2] / "examples" / "three_makes.st")
 

@@ -8,9 +8,9 @@ import pytest
 from click.testing import CliRunner
 
 from driveblocks.cli import app
+from driveblocks.desk.site import kept
+from driveblocks.desk.site.found import Found, Way
 from driveblocks.maps import collection, page
-from driveblocks.site import kept
-from driveblocks.site.found import Found, Way
 
 GUIDE = Path(__file__).parents[2] / "vendor_maps/README.md"
 

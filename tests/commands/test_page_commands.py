@@ -15,9 +15,9 @@ from pathlib import Path
 import pytest
 from tests.maps.bad import cases
 
+from driveblocks.desk.site import kept, saved
+from driveblocks.desk.site.found import Found, Way
 from driveblocks.maps.load import load
-from driveblocks.site import kept, saved
-from driveblocks.site.found import Found, Way
 
 ROOT = Path(__file__).parents[2]
 TESTING = ROOT / "docs/testing.md"
@@ -34,9 +34,9 @@ ELSEWHERE = {
     r"driveblocks test my_drive.yaml ": "tests/commands/test_test.py tests this map",
     r"driveblocks test acme.yaml$": "tests/blocks/test_promise.py tests what `driveblocks new` writes",
     r"driveblocks run my_line.st --(port|tcp 192)": "a real port",
-    r"driveblocks commission .": "a real port; tests/site/test_commission.py has it",
-    r"driveblocks listen .": "a real port; tests/site/test_listen.py has it",
-    r"driveblocks parameters .*--port": "a real port; tests/site/test_peer.py has one at a server of pymodbus",
+    r"driveblocks commission .": "a real port; tests/desk/site/test_commission.py has it",
+    r"driveblocks listen .": "a real port; tests/desk/site/test_listen.py has it",
+    r"driveblocks parameters .*--port": "a real port; tests/desk/site/test_peer.py has one at a server of pymodbus",
     r"driveblocks run my_line.st --tcp 127.0.0.1:5020": "a simulator beside it; tests/commands/test_run.py has one",
     r"python -m structured_text ": "tests/structured_text/test_cli.py takes these lines from their page",
     r"make (?!blocks$)": "minutes to hours; tests/output/test_release.py has `make release`",

@@ -9,23 +9,23 @@ from pathlib import Path
 
 import pytest
 from click.testing import CliRunner, Result
-from tests.plc.desk import EXAMPLE, ONE, maps
-from tests.plc.windows import environment
+from tests.desk.run.desk import EXAMPLE, ONE, maps
+from tests.desk.run.windows import environment
+from tests.desk.simulate.test_peer import serving
 from tests.simulator.talk import MAPS
-from tests.stand.test_peer import serving
 
 from driveblocks.commands import run as command
 from driveblocks.desk.bus import Bus
 from driveblocks.desk.keyboard import Keyboard
+from driveblocks.desk.run import demo, probe, source
+from driveblocks.desk.run.controller import Controller
+from driveblocks.desk.run.options import Options
+from driveblocks.desk.run.setup import Setup
 from driveblocks.desk.screen import Lines
+from driveblocks.desk.simulate.link import TcpLink
 from driveblocks.desk.words import Refused
 from driveblocks.maps import catalog
-from driveblocks.plc import demo, probe, source
-from driveblocks.plc.controller import Controller
-from driveblocks.plc.options import Options
-from driveblocks.plc.setup import Setup
 from driveblocks.simulator.drive import SimulatedDrive
-from driveblocks.stand.link import TcpLink
 
 NET = 600
 """Seconds that no machine needs, for what would hang."""

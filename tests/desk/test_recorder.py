@@ -9,7 +9,7 @@ import pytest
 
 from driveblocks.desk import recorder
 from driveblocks.desk.recorder import MOST_WAITING, Recorder, Row
-from driveblocks.plc.departure import Departure
+from driveblocks.desk.run.departure import Departure
 
 NET = 600
 """Seconds that no machine needs, for what would hang."""

@@ -4,7 +4,7 @@ import re
 from pathlib import Path
 
 import pytest
-from tests.plc.desk import Desk
+from tests.desk.run.desk import Desk
 
 from driveblocks.desk import script
 from driveblocks.desk.keyboard import typed

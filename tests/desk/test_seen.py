@@ -8,13 +8,13 @@ from xml.etree import ElementTree
 
 import pytest
 from rich.console import Console
-from tests.plc.desk import Desk
+from tests.desk.run.desk import Desk
 
 from driveblocks import console
 from driveblocks.desk import screen
 from driveblocks.desk.record import Timing, Trace
+from driveblocks.desk.run.look import look
 from driveblocks.desk.seen import Seen, View
-from driveblocks.plc.look import look
 
 
 def views() -> Iterator[View]:

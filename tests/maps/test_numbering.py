@@ -10,13 +10,13 @@ from click.testing import CliRunner
 from tests.maps.test_base import BASE
 
 from driveblocks.cli import app
+from driveblocks.desk.run.drives import Named
 from driveblocks.maps import catalog
 from driveblocks.maps.form import Span
 from driveblocks.maps.load import load, loads
 from driveblocks.maps.model import Drive
 from driveblocks.maps.numbering import named
 from driveblocks.maps.problem import MapError
-from driveblocks.plc.drives import Named
 
 RULES: dict[str, tuple[str, Callable[[int], str]]] = {
     "1": ("first: 1, proof: request", lambda address: str(address + 1)),

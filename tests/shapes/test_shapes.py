@@ -11,6 +11,7 @@ from click.testing import CliRunner
 from tests.shapes import shapes, texts
 
 from driveblocks.cli import app
+from driveblocks.desk.site.register import spans
 from driveblocks.docs.page import documents
 from driveblocks.maps import check
 from driveblocks.maps.collection import Source
@@ -27,7 +28,6 @@ from driveblocks.render.library import drive as library_of
 from driveblocks.render.library import generic
 from driveblocks.render.text import languages
 from driveblocks.simulator.drive import SimulatedDrive
-from driveblocks.site.register import spans
 from driveblocks.testing import runner
 from driveblocks.testing.script import Suite
 from driveblocks.testing.unit import Unit

@@ -13,6 +13,8 @@ from tests.shapes import values
 
 from driveblocks.cli import app
 from driveblocks.desk.bus import Bus
+from driveblocks.desk.simulate.stand import view
+from driveblocks.desk.site.register import rows, value
 from driveblocks.maps import conduct
 from driveblocks.maps.collection import Source
 from driveblocks.maps.load import loads
@@ -23,8 +25,6 @@ from driveblocks.reference.command import Commands, Pins
 from driveblocks.reference.speed import SpeedReference
 from driveblocks.render.text import languages
 from driveblocks.simulator.drive import SimulatedDrive
-from driveblocks.site.register import rows, value
-from driveblocks.stand.stand import view
 from driveblocks.testing import runner
 from driveblocks.testing.outcome import Result
 from driveblocks.testing.unit import Unit

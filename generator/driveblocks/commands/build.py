@@ -123,8 +123,8 @@ def _measured(site: Path | None) -> Mapping[str, "Sequence[Measured]"]:
     """What was found of single drives, by the name of their map. Ends with status 2 for a bad file."""
     if site is None:
         return {}
+    from driveblocks.desk.site import kept, sheet
     from driveblocks.maps.problem import MapError
-    from driveblocks.site import kept, sheet
 
     try:
         return sheet.measured(kept.read(site))

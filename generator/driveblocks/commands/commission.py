@@ -30,8 +30,8 @@ def run(**words: Any) -> None:
 
     Example: driveblocks commission chf --port /dev/ttyUSB0 --label Pump
     """
+    from driveblocks.desk.site import hour
     from driveblocks.desk.words import Refused
-    from driveblocks.site import hour
 
     try:
         found = hour.run(hour.Words(**words), input)

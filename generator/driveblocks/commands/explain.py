@@ -8,7 +8,7 @@ import click
 from driveblocks.commands import loaded, refuse
 
 if TYPE_CHECKING:
-    from driveblocks.explain.explanation import Explanation
+    from driveblocks.desk.explain.explanation import Explanation
     from driveblocks.maps.model import Drive
 
 
@@ -31,9 +31,9 @@ def run(frame: str, drive: str | None, request: str | None, json: bool) -> None:
 
     Example: driveblocks explain "01 03 02 01 F4 B8 53" --drive jscc --request "01 03 20 00 00 01 8F CA"
     """
-    from driveblocks.explain.explanation import Explainer
-    from driveblocks.explain.paste import read
-    from driveblocks.explain.unreadable import UnreadableError
+    from driveblocks.desk.explain.explanation import Explainer
+    from driveblocks.desk.explain.paste import read
+    from driveblocks.desk.explain.unreadable import UnreadableError
 
     path, known = loaded(drive) if drive is not None else (None, None)
     name = "stdin" if frame == "-" else "frame"
@@ -49,7 +49,7 @@ def run(frame: str, drive: str | None, request: str | None, json: bool) -> None:
 
 def _stdin() -> str:
     """Standard input as text; bytes that are none are shown as they are, so that their place can be reported."""
-    from driveblocks.explain.paste import LONGEST
+    from driveblocks.desk.explain.paste import LONGEST
 
     return sys.stdin.buffer.read(LONGEST + 1).decode("utf-8", "replace")
 
@@ -58,11 +58,11 @@ def _print(made: "Explanation", drive: "Drive | None", stem: str | None, json: b
     if json:
         from json import dumps
 
-        from driveblocks.explain import plain
+        from driveblocks.desk.explain import plain
 
         click.echo(dumps(plain.of_explanation(made, stem), ensure_ascii=False, indent=2))
         return
     from driveblocks import console
-    from driveblocks.explain import page
+    from driveblocks.desk.explain import page
 
     console.write(*page.pages(made, drive))

@@ -53,10 +53,10 @@ def run(picture: Path | None, json: bool, **words: Any) -> None:
     from json import dumps
 
     from driveblocks import console
+    from driveblocks.desk.site import asked, report
+    from driveblocks.desk.site import picture as pictures
+    from driveblocks.desk.site.line import figures
     from driveblocks.desk.words import Refused
-    from driveblocks.site import asked, report
-    from driveblocks.site import picture as pictures
-    from driveblocks.site.line import figures
 
     try:
         line = asked.line(asked.Words(**words))

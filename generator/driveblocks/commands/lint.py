@@ -91,9 +91,9 @@ def run(  # noqa: PLR0913, PLR0917 - one parameter per option of the command lin
 
 def _library(sources: list[tuple[str, str]], maps: tuple[str, ...]) -> list[tuple[str, str]]:
     """Those files of the library, by path and text, that sources need beside what they declare themselves."""
+    from driveblocks.desk.run.source import known, needed
     from driveblocks.maps import catalog
     from driveblocks.maps.problem import MapError
-    from driveblocks.plc.source import known, needed
     from structured_text.language.lint import Selection, lint_sources
     from structured_text.language.parser import ParseError, parse
 

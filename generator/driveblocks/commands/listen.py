@@ -30,8 +30,8 @@ def run(json: bool, **words: Any) -> None:
     from json import dumps
 
     from driveblocks import console
+    from driveblocks.desk.site import listen, overheard
     from driveblocks.desk.words import Refused
-    from driveblocks.site import listen, overheard
 
     try:
         way, traffic, ended, wrong = listen.run(listen.Words(**words))

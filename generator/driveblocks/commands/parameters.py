@@ -46,9 +46,9 @@ def save(drive: str, file: Path, **words: Any) -> None:
 
     Example: driveblocks parameters save chf@1 pump.csv --port /dev/ttyUSB0
     """
+    from driveblocks.desk.site import drives
+    from driveblocks.desk.site.reader import LostError
     from driveblocks.desk.words import Refused
-    from driveblocks.site import drives
-    from driveblocks.site.reader import LostError
 
     try:
         click.echo(drives.save(drive, file, drives.Place(**words)))
@@ -74,9 +74,9 @@ def compare(left: str, right: str, everything: bool, own: str | None, **words: A
     Example: driveblocks parameters compare pump.csv chf@2 --port /dev/ttyUSB0
     """
     from driveblocks import console
+    from driveblocks.desk.site import drives
+    from driveblocks.desk.site.reader import LostError
     from driveblocks.desk.words import Refused
-    from driveblocks.site import drives
-    from driveblocks.site.reader import LostError
 
     try:
         told, differs = drives.compare((left, right), drives.Place(**words), own, everything=everything)

@@ -58,10 +58,10 @@ def run(show: tuple[str, ...], **words: Any) -> None:
     Example: driveblocks run my_line.st --simulate jscc@1 --for 60s
     """
     from driveblocks.desk.keyboard import Keyboard
+    from driveblocks.desk.run import permission
+    from driveblocks.desk.run.options import Options
+    from driveblocks.desk.run.setup import Setup
     from driveblocks.desk.words import Refused
-    from driveblocks.plc import permission
-    from driveblocks.plc.options import Options
-    from driveblocks.plc.setup import Setup
 
     options = Options(show=tuple(",".join(show).replace(",", " ").split()), **words)
     try:

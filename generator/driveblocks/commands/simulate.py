@@ -33,9 +33,9 @@ def run(drives: tuple[str, ...], form: str, schema: bool, frames: bool, **words:
     Example: driveblocks simulate jscc@1 chf@2 --scenario trips.yaml --frames
     """
     from driveblocks.desk import scenario as scenarios
+    from driveblocks.desk.explain.trace import Tracer
+    from driveblocks.desk.simulate.setup import Setup, Words
     from driveblocks.desk.words import Refused
-    from driveblocks.explain.trace import Tracer
-    from driveblocks.stand.setup import Setup, Words
 
     if schema:
         click.echo(scenarios.schema(), nl=False)

@@ -26,10 +26,10 @@ def run(file: Path, target: str, html: Path | None, report: str | None, maps: tu
 
     Example: driveblocks site --to siemens --html pump.html
     """
+    from driveblocks.desk.site import kept, sheet
     from driveblocks.maps import catalog
     from driveblocks.maps.load import load
     from driveblocks.maps.problem import MapError
-    from driveblocks.site import kept, sheet
 
     try:
         entries = kept.read(file)

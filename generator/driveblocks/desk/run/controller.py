@@ -1,0 +1,117 @@
+"""One scan of a program: received bytes in, time in, the body, bytes out."""
+
+import sys
+from collections import Counter
+
+from driveblocks.desk.port import Port
+from driveblocks.desk.run.guard import Guard
+from driveblocks.desk.run.mailbox import Mailbox
+from driveblocks.desk.run.wiring import DriveBlock, Wiring
+from driveblocks.maps.model import Drive
+from structured_text.engines.embedded import EmbeddedInstance, EmbeddedLibrary
+
+MOST_MS = 65535
+PORT_FAILS = 1
+"""What PortErrorID shows while the port does not work."""
+
+
+class Controller:
+    """A program at a port. Without a guard everything is sent."""
+
+    def __init__(
+        self,
+        library: EmbeddedLibrary,
+        program: str,
+        wiring: Wiring,
+        drives: dict[str, Drive],
+        scan_us: int,
+    ) -> None:
+        """Make an instance of the program; its port comes by `connect`."""
+        self.instance: EmbeddedInstance = library.instance(program)
+        self._library = library
+        self.wiring = wiring
+        self._drives = drives
+        self._scan_us = scan_us
+        self._mailbox = Mailbox(self.instance, wiring)
+        self._port: Port
+        self._free: frozenset[tuple[int, str]] | None = None
+        self._guard: Guard | None = None
+        self._judged: set[tuple[int, str]] = set()
+        self.dropped: Counter[str] = Counter()
+        """Frames that the guard let not pass."""
+        self._called_ms: int | None = None
+        self._begun_us = 0
+
+    def connect(self, port: Port, free: frozenset[tuple[int, str]] | None) -> None:
+        """Take a port; `free` are unit and path of the drives that may run on a real one, None: it is not real."""
+        self._port, self._free = port, free
+        self._set("PORTLATEMS", port.late_ms)
+
+    def scan(self, now_us: int) -> None:
+        """Scan once. Raises ScanError."""
+        self._mailbox.give(self._port.receive())
+        self._set("PORTERRORID", PORT_FAILS if self._port.error else 0)
+        self._time(now_us)
+        self.instance.scan((now_us - self._begun_us) * 1000)
+        frame = self._mailbox.take()
+        if frame and self._passes(frame):
+            self._port.send(frame)
+
+    def _time(self, now_us: int) -> None:
+        first = self._called_ms is None
+        if first:
+            self._begun_us = now_us
+        before = (now_us - self._scan_us) // 1000 if self._called_ms is None else self._called_ms
+        self._called_ms = now_us // 1000
+        self._set("ELAPSEDMS", min(self._called_ms - before, MOST_MS))
+        for path in self.wiring.restart:
+            self.instance[path] = first
+
+    def _set(self, pin: str, value: int) -> None:
+        path = self.wiring.pins[pin]
+        if path is not None:
+            self.instance[path] = value
+
+    def place(self, thread: int | None) -> str:
+        """Where the thread that scans is in the program: the innermost place, and the one in the program itself."""
+        found = self._library.running(sys._current_frames().get(thread or 0))
+        if not found:
+            return "outside the program's text"
+        at = [f"{each.path}:{each.line}:{each.column} in {each.text}" for each in (found[0], found[-1])]
+        return at[0] if len(found) == 1 else f"{at[0]}, called from {at[1]}"
+
+    # ------------------------------------------------------------ drives
+
+    def number(self, path: str) -> int:
+        """A whole number of the program."""
+        value = self.instance[path]
+        return value if isinstance(value, int) else 0
+
+    def unit(self, block: DriveBlock) -> int:
+        """The unit address that a drive block uses; 0 before its first call, or where it has none."""
+        return self.number(f"{block.path}.Unit.Served")
+
+    def drive(self, block: DriveBlock) -> Drive:
+        """The map of a drive block."""
+        return self._drives[block.prefix]
+
+    def units(self) -> dict[int, Drive]:
+        """The drive at each unit address; one that two maps claim is nobody's."""
+        found: dict[int, Drive] = {}
+        doubted: set[int] = {0}
+        for block in self.wiring.drives:
+            unit, drive = self.unit(block), self.drive(block)
+            if found.setdefault(unit, drive) is not drive:
+                doubted.add(unit)
+        return {unit: drive for unit, drive in found.items() if unit not in doubted}
+
+    def _passes(self, frame: bytes) -> bool:
+        if self._free is None:
+            return True
+        now = {(self.unit(block), block.path) for block in self.wiring.drives}
+        if self._guard is None or now != self._judged:
+            units = self.units()
+            strangers = {unit for unit, _ in now - self._free}
+            free = frozenset(unit for unit, _ in now & self._free if unit in units and unit not in strangers)
+            self._guard, self._judged = Guard(units, free, self.dropped), now
+        return self._guard.passes(frame)

@@ -1,0 +1,79 @@
+"""A program after its first scan, without a port: what it says of its line and its drives before anything is sent."""
+
+import threading
+from collections.abc import Sequence
+from pathlib import Path
+
+from driveblocks.desk.run import source, wiring
+from driveblocks.desk.run.controller import Controller
+from driveblocks.desk.words import Refused
+from driveblocks.maps.collection import Source as Map
+from structured_text.engines.engine import BuildError, ScanError
+
+
+def compiled(name: str, text: str, maps: Sequence[Map], program: str | None = None) -> source.Loaded:
+    """Compile a text; `name` is what its messages begin with. Raises Refused."""
+    try:
+        return source.load(name, text, maps, program)
+    except BuildError as error:
+        raise Refused(f"{error}{source.advice(str(error))}") from None
+
+
+def controller(loaded: source.Loaded, scan_us: int) -> Controller:
+    """An instance of a program. Raises Refused."""
+    try:
+        wired = wiring.find(loaded.program, set(loaded.drives))
+    except BuildError as error:
+        raise Refused(str(error)) from None
+    return Controller(loaded.library, loaded.program.name, wired, loaded.drives, scan_us)
+
+
+def probed(loaded: source.Loaded, scan_us: int, limit_us: int) -> Controller:
+    """The program after one scan, which may take `limit_us`. Raises Refused."""
+    probe = controller(loaded, scan_us)
+    probe.connect(_Nowhere(), None)
+    errors: list[ScanError] = []
+
+    def scan() -> None:
+        try:
+            probe.scan(scan_us)
+        except ScanError as error:
+            errors.append(error)
+
+    thread = threading.Thread(target=scan, daemon=True)
+    thread.start()
+    thread.join(limit_us / 1e6)
+    if thread.is_alive():
+        place = probe.place(thread.ident)
+        raise Refused(f"{place}: the first scan has not ended within {limit_us / 1e6:g} s; nothing was sent")
+    for error in errors:
+        raise Refused(str(error)) from None
+    return probe
+
+
+def text(path: Path, name: str) -> str:
+    """The text of a plain file: a pipe would be waited for. Raises Refused."""
+    try:
+        if path.exists() and not path.is_file():
+            raise Refused(f"{name}:1:1: cannot be read: it is no file")
+        return path.read_text(encoding="utf-8-sig")
+    except OSError as error:
+        raise Refused(f"{name}:1:1: cannot be read: {error.strerror}") from None
+    except UnicodeDecodeError:
+        raise Refused(f"{name}:1:1: cannot be read: it is not UTF-8; save it as such") from None
+
+
+class _Nowhere:
+    """A port at which nobody is."""
+
+    late_ms = 0
+    error = ""
+
+    def send(self, data: bytes) -> None:
+        pass
+
+    def receive(self) -> bytes:
+        return b""
+
+    def close(self) -> None:
+        pass

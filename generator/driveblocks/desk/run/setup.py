@@ -1,0 +1,354 @@
+"""From the words of the command line to a run: program, port, drives, what is recorded and shown."""
+
+import difflib
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, suppress
+from dataclasses import replace
+from pathlib import Path
+
+from driveblocks import console
+from driveblocks.desk import port, recorder, scenario, script
+from driveblocks.desk.bus import Bus
+from driveblocks.desk.clock import Clock, RealClock, VirtualClock
+from driveblocks.desk.ending import Ending, listening
+from driveblocks.desk.keyboard import Keyboard
+from driveblocks.desk.port import Port, WirePort
+from driveblocks.desk.run import demo, live, probe, source
+from driveblocks.desk.run.controller import Controller
+from driveblocks.desk.run.departure import Departure
+from driveblocks.desk.run.drives import Named, named, of_program, words
+from driveblocks.desk.run.options import Options, wrong
+from driveblocks.desk.run.play import Play
+from driveblocks.desk.run.session import Result, Session
+from driveblocks.desk.run.simulated import Simulation
+from driveblocks.desk.run.watchdog import FIRST_US, LIMIT_US, Watchdog
+from driveblocks.desk.screen import Desk, Heading, Lines, LiveTable, Screen
+from driveblocks.desk.words import LOOPBACK, Refused, time
+from driveblocks.maps import catalog
+from driveblocks.maps.collection import Source as Map
+from driveblocks.maps.problem import MapError
+from driveblocks.simulator.drive import SimulatedDrive
+from structured_text.visible import file_name
+
+LONGEST_SCAN_US = 60_000_000
+USUAL = {"BitRate": 9600, "CharacterBits": 10}
+"""What a line takes where a pin is 0."""
+SHORTEST_WATCHDOG_US, LONGEST_WATCHDOG_US = 10_000, 600_000_000
+RECKONED_WATCHDOG_US = 30_000_000
+"""With --fast, which keeps no motor waiting; a busy computer must not spoil it."""
+LEAVE_S = 1.5
+"""How long the process may take to end when it is known whether the drives are at standstill."""
+FILES_S = 1.0
+"""How much of this its files may take."""
+PATIENT = 10
+"""With --fast, this many times as long."""
+RECORDED = ("Running", "Fault", "StopConfirmed", "OutputFrequencyHz")
+"""Outputs of each drive block that are recorded where nobody names others."""
+
+
+class Setup:
+    """A run that is ready."""
+
+    def __init__(self, options: Options, keyboard: Keyboard) -> None:
+        """Prepare everything but the port; `keyboard` is what a person types while it runs. Raises Refused."""
+        if mistakes := list(wrong(options)):
+            raise Refused("\n".join(mistakes))
+        self._options = options
+        self._keyboard = keyboard
+        self._scan_us = time("--scan", options.scan, 1_000, LONGEST_SCAN_US)
+        self._for_us = None if options.length is None else time("--for", options.length, 1, 10**15)
+        self._watchdog_us = self._limit()
+        self._pause = PATIENT if options.fast else 1
+        self._departure = Departure(LEAVE_S * self._pause)
+        self._stack = ExitStack()
+        self._path = demo.path() if options.demo else options.program or Path()
+        if console.terminal().is_terminal:
+            console.write(f"{self.label}  compiling {file_name(self._path.name)}")
+        self._maps = _maps(options)
+        self._loaded = self._load()
+        self.probe = probe.probed(self._loaded, self._scan_us, max(FIRST_US, self._watchdog_us))
+        """The program after one scan, without a port: what `permission` asks a person about."""
+        self._drives = [] if options.tcp or options.port else self._simulates()
+        self._clock: Clock = VirtualClock() if options.fast else RealClock()
+        self._demo: demo.Demo | None = None
+        self._session = self._made()
+        self._session.play = self._play()
+        self._records()
+
+    def _limit(self) -> int:
+        """How long a scan may take."""
+        if self._options.watchdog is None:
+            return RECKONED_WATCHDOG_US if self._options.fast else LIMIT_US
+        return time("--watchdog", self._options.watchdog, SHORTEST_WATCHDOG_US, LONGEST_WATCHDOG_US)
+
+    # ------------------------------------------------------------ program
+
+    def _load(self) -> source.Loaded:
+        name = file_name(catalog.shown(self._path))
+        return probe.compiled(name, probe.text(self._path, name), self._maps, self._options.name)
+
+    def _line(self, pin: str) -> int:
+        return self.probe.number(f"{self.probe.wiring.line}.{pin}") or USUAL.get(pin, 0)
+
+    # ------------------------------------------------------------ port
+
+    def _port(self) -> Port:
+        """Open the port. Raises Refused."""
+        options = self._options
+        try:
+            if options.port is not None:
+                return port.serial_port(options.port, self._line("BitRate"), self._form(), self._clock)
+            if options.tcp is not None:
+                host, _, number = options.tcp.rpartition(":")
+                return port.tcp(host or LOOPBACK[1], int(number), self._clock)
+            return self._simulated()
+        except ImportError as error:
+            raise Refused(f"--port needs pyserial, which does not run here: {error}") from None
+        except (OSError, ValueError, OverflowError) as error:
+            raise Refused(f"{options.port or options.tcp or 'simulated drives'}: {port.reason(error)}") from None
+
+    def _form(self) -> str:
+        """Data bits, parity and stop bits. Raises Refused."""
+        if self._options.form is not None:
+            form = self._options.form.upper()
+            if len(form) != 3 or form[0] not in "78" or form[1] not in "NEO" or form[2] not in "12":
+                raise Refused(f"--format {self._options.form} is no format; write 8N1, 8E1, 8O1, 8N2 or 7E1")
+            return form
+        bits = self._line("CharacterBits")
+        found = {(10, 0): "8N1", (11, 0): "8E1", (10, 1): "7E1"}.get((bits, self._line("Ascii")))
+        if found is None:
+            raise Refused(f"CharacterBits = {bits} of {self.probe.wiring.line} leaves no format; write --format")
+        return found
+
+    def _simulates(self) -> list[Named]:
+        """The drives that are named, else those of the program. Raises Refused."""
+        known = {each.path.resolve(): (each.path, each.drive) for each in self._maps}
+        if not self._options.simulate:
+            return list(of_program(self.probe, tuple(known.values())))
+        paths = [path for path, _ in known.values()]
+        try:
+            return named(
+                words(self._options.simulate),
+                lambda name: known[catalog.displacing(catalog.resolve(name), paths).resolve()],
+                "--simulate ",
+            )
+        except catalog.UnknownDrive as error:
+            raise Refused(str(error)) from None
+
+    def _simulated(self) -> Port:
+        rate, bits, ascii_mode = self._line("BitRate"), self._line("CharacterBits"), bool(self._line("Ascii"))
+        if not (300 <= rate <= 1_000_000 and 8 <= bits <= 12):
+            raise Refused(f"{self.probe.wiring.line} has BitRate {rate} and CharacterBits {bits}, which is no line")
+        if isinstance(self._clock, VirtualClock) or self._options.demo:
+            drives = [one.made(ascii_mode=ascii_mode) for one in self._drives]
+            if self._options.demo:
+                self._show(drives)
+            bus, clock = Bus(drives, rate, bits, ascii_mode=ascii_mode), _Since(self._clock)
+            self._acts(lambda happening: bus.happen(happening.act, clock.now_us()))
+            return WirePort(bus, clock)
+        process = Simulation(self._drives, rate, bits, ascii_mode=ascii_mode)
+        self._stack.callback(process.close)
+        self._acts(process.happen)
+        return port.tcp(LOOPBACK[1], process.port, self._clock)
+
+    def _play(self) -> Play | None:
+        """What happens to simulated drives; None where nobody can know what they are. Raises Refused."""
+        path, drives = self._options.scenario, {one.unit: one.drive for one in self._drives}
+        if self._options.tcp or self._options.port or self._options.demo:
+            return None
+        try:
+            return Play(drives, scenario.read(path, drives) if path else ())
+        except MapError as error:
+            raise Refused(str(error)) from None
+
+    def _acts(self, act: Callable[[scenario.Happening], None]) -> None:
+        if self._session.play is not None:
+            self._session.play.act = act
+
+    def _show(self, drives: list[SimulatedDrive]) -> None:
+        for drive in drives:
+            drive.habits = replace(drive.habits, ramp=demo.RAMP, coast_ramp=demo.COAST)
+        self._demo = demo.Demo(self._session, drives[-1])
+        self._session.steps.append(self._demo.step)
+
+    # ------------------------------------------------------------ the session
+
+    @property
+    def label(self) -> str:
+        """Whose port it is."""
+        return "REAL PORT" if self._options.real else "SIMULATED"
+
+    def _made(self) -> Session:
+        controller = probe.controller(self._loaded, self._scan_us)
+        session = Session(controller, self._clock, Ending(), self._scan_us)
+        session.recorded = self._recorded(controller)
+        session.script, session.shown = self._script(controller), self._options.show
+        session.known = self.probe
+        session.watchdog = Watchdog(self._watchdog_us)
+        session.settled = self._settled
+        return session
+
+    def _recorded(self, controller: Controller) -> tuple[str, ...]:
+        """Names of what is recorded. Raises Refused for names that are none."""
+        for name in self._options.show:
+            try:
+                value = controller.instance[name]
+            except KeyError:
+                near = difflib.get_close_matches(name.upper(), controller.instance.state(), 3)
+                guess = f"; did you mean {', '.join(near)}?" if near else ""
+                raise Refused(f"--show: the program has no variable {name}{guess}") from None
+            if isinstance(value, list | dict):
+                raise Refused(f"--show: {name} has parts; name one of them")
+        drives = [f"{block.path}.{pin}" for block in controller.wiring.drives for pin in RECORDED]
+        return self._options.show or (*controller.wiring.inputs, *drives)
+
+    def _records(self) -> None:
+        """Open what is to be recorded. Raises Refused."""
+        where, names = f"{self.label}, {file_name(self._path.name)}", self._session.recorded
+        ways = (self._options.trace, recorder.trace), (self._options.picture, recorder.picture)
+        try:
+            for path, way in ways:
+                if path is not None:
+                    self._session.recorders.append(way(path, names, where, waits=self._options.fast))
+        except OSError as error:
+            raise Refused(f"{file_name(error.filename)}: {error.strerror}") from None
+
+    def _script(self, controller: Controller) -> list[script.Setting]:
+        path = self._options.script
+        if path is None:
+            return []
+        name = file_name(path)
+        try:
+            return script.read(name, probe.text(path, name), controller.instance)
+        except script.ScriptError as error:
+            raise Refused(str(error)) from None
+
+    # ------------------------------------------------------------ the run
+
+    def run(self, free: frozenset[tuple[int, str]] = frozenset()) -> int:
+        """Run to the end; the exit status. Raises Refused if the port cannot be opened.
+
+        `free` are unit and path of the drives that may run on a real port.
+        """
+        try:
+            return self._run(free)
+        finally:
+            self._departure.done()
+
+    def _run(self, free: frozenset[tuple[int, str]]) -> int:
+        suspend = self._session.ask_to_suspend if self._options.real else None
+        with self._stack, listening(self._session.ending, suspend):
+            opened = self._port()
+            self._stack.callback(opened.close)
+            self._session.connect(opened, free if self._options.real else None)
+            for note in self._session.controller.wiring.notes:
+                console.write(str(note))
+            if self._options.real and self._options.loopback and not free:
+                self._session.told.put("only reads and stops are sent; if a simulator is there, add --simulated")
+            for one in self._drives:
+                for line in one.told():
+                    self._session.told.put(line)
+            screen = self._screen()
+            return self._report(self._fast(screen) if self._options.fast else self._live(screen))
+
+    def _screen(self) -> Screen:
+        terminal, title = console.terminal(), file_name(self._path.name)
+        drawn = terminal.is_terminal and not terminal.is_dumb_terminal and not terminal.legacy_windows
+        if drawn and not self._options.fast:
+            heading = Heading(self._head(), title, self._options.real)
+            return LiveTable(heading) if self._options.demo else Desk(heading)
+        screen = Lines(self.label, brief=self._options.demo)
+        screen.say(f"{self._head().removeprefix(self.label)} {title}".strip())
+        return screen
+
+    def _head(self) -> str:
+        place = self._options.port or self._options.tcp or ""
+        return f"{self.label} {place}".strip()
+
+    def _live(self, screen: Screen) -> Result:
+        person = sys.stdin is not None and sys.stdin.isatty()
+        keyboard = None if self._options.demo else self._keyboard
+        return live.run(self._session, screen, keyboard, self._for_us, end_of_input=self._options.real or person)
+
+    def _fast(self, screen: Screen) -> Result:
+        session = self._session
+
+        def shown(_: int) -> None:
+            try:
+                live.tell(session, screen)
+                if session.view is not None:
+                    screen.show(session.view)
+            except (OSError, ValueError) as error:
+                session.ending.ask(f"the screen has failed: {error}")
+
+        session.steps.append(shown)
+        result = session.run(self._for_us)
+        with suppress(OSError, ValueError):
+            live.tell(session, screen)
+        return result
+
+    def _settled(self, result: Result) -> None:
+        """It is known how the run has ended: from now on nothing may take long."""
+        self._departure.begin(self._status(result), f"{self.label}  {result.reason}\n{self._verdict(result)}")
+
+    def _verdict(self, result: Result) -> str:
+        """Which drives are at standstill, and which perhaps are not."""
+        return "".join(f"{self.label}  {line}\n" for line in (*_stands(result), *self._untrue()))
+
+    def _untrue(self) -> list[str]:
+        return [self._demo.wrong] if self._demo and self._demo.wrong else []
+
+    def _status(self, result: Result) -> int:
+        return 1 if result.crashed or result.unconfirmed or self._untrue() else 0
+
+    def _report(self, result: Result) -> int:
+        """Say how it went, first whether the drives are at standstill; the exit status."""
+        _print(self._verdict(result))
+        self._departure.printed()
+        dropped = sorted(self._session.controller.dropped.items())
+        lines = [f"not sent {number} times: {what}" for what, number in dropped]
+        if not self._options.fast:
+            lines.append(str(self._session.pace))
+        files = [each.finish(FILES_S * self._pause / 2) for each in self._session.recorders]
+        _print("".join(f"{line}\n" for line in (*lines, *filter(None, files))))
+        failed = any(each.failed for each in self._session.recorders)
+        return self._status(result) or (2 if failed else 0)
+
+
+def _print(text: str) -> None:
+    """On standard output, else on the other stream."""
+    try:
+        sys.stdout.write(text)
+        sys.stdout.flush()
+    except (OSError, ValueError):
+        console.give_up_output()
+        with suppress(OSError, ValueError):
+            sys.stderr.write(text)
+
+
+def _stands(result: Result) -> Iterator[str]:
+    if result.stopped:
+        yield f"stopped, and standstill read: {', '.join(result.stopped)}"
+    for name, why in result.unconfirmed.items():
+        yield f"NOT CONFIRMED: {name}: {why}. Go and look"
+
+
+def _maps(options: Options) -> list[Map]:
+    """The shipped maps, and those that are named. Raises Refused."""
+    named = [*options.maps, *(one.name for one in words(options.simulate) if catalog.is_path(one.name))]
+    try:
+        return source.known([catalog.resolve(name) for name in named])
+    except (catalog.UnknownDrive, MapError) as error:
+        raise Refused(str(error)) from None
+
+
+class _Since:
+    """A clock whose beginning is now."""
+
+    def __init__(self, clock: Clock) -> None:
+        self._clock, self._begun = clock, clock.now_us()
+        self.sleep_until: Callable[[int], None] = clock.sleep_until
+
+    def now_us(self) -> int:
+        return self._clock.now_us() - self._begun

@@ -1,0 +1,146 @@
+"""Simulated drives on a line behind a TCP port of this computer, in a process of their own.
+
+    python -P -m driveblocks.desk.run.simulated '{"drives": [...], "rate": 19200, "bits": 11, "ascii": false}'
+
+It prints the number of its port, serves one connection after the other, lets happen what its standard input says in
+lines, such as `trip OC 2`, and ends when that does. `-P`: no module of the folder where it is started takes part.
+"""
+
+import json
+import os
+import select
+import signal
+import socket
+import subprocess
+import sys
+import threading
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from driveblocks.desk.bus import Bus
+from driveblocks.desk.clock import RealClock
+from driveblocks.desk.run.drives import Named
+from driveblocks.desk.scenario import Act, Happening, said
+from driveblocks.maps.load import load
+from driveblocks.maps.model import Drive
+from structured_text.engines.embedded.certainty import present
+
+HOST = "127.0.0.1"
+LOOK_S = 0.001
+
+
+class Simulation:
+    """The process, from the side of the one who starts it."""
+
+    def __init__(self, drives: Sequence[Named], rate: int, bits: int, *, ascii_mode: bool) -> None:
+        """Start it and wait until it listens. Raises OSError."""
+        words = json.dumps({"drives": rows(drives), "rate": rate, "bits": bits, "ascii": ascii_mode})
+        self._process = subprocess.Popen(
+            [sys.executable, "-P", "-m", "driveblocks.desk.run.simulated", words],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            text=True,
+        )
+        line = present(self._process.stdout).readline()
+        if not line.strip().isdigit():
+            raise OSError("the simulated drives did not start")
+        self.port = int(line)
+
+    def happen(self, happening: Happening) -> None:
+        """Let something happen to its drives. Raises OSError."""
+        said = present(self._process.stdin)
+        said.write(f"{happening.says}\n")
+        said.flush()
+
+    def close(self) -> None:
+        """End it."""
+        self._process.communicate()
+
+
+def rows(drives: Sequence[Named]) -> list[list[Any]]:
+    """Drives as JSON can say them."""
+    return [[str(one.path.resolve()), one.unit, one.maximum_hz, one.scales] for one in drives]
+
+
+def named(rows: Sequence[Sequence[Any]]) -> list[Named]:
+    """The drives of such rows. Raises MapError."""
+    return [
+        Named(Path(path), load(Path(path)), unit, hz, tuple((name, number) for name, number in scales))
+        for path, unit, hz, scales in rows
+    ]
+
+
+def main(words: str) -> None:
+    """Serve."""
+    for name in ("SIGINT", "SIGHUP"):  # meant for the one who started this, who still has drives to stop
+        if hasattr(signal, name):
+            signal.signal(getattr(signal, name), signal.SIG_IGN)
+    given = json.loads(words)
+    units = named(given["drives"])
+    drives = [one.made(ascii_mode=given["ascii"]) for one in units]
+    line = _Line(Bus(drives, given["rate"], given["bits"], ascii_mode=given["ascii"]), RealClock().now_us())
+    threading.Thread(target=_listen, args=(line, {one.unit: one.drive for one in units}), daemon=True).start()
+    with socket.create_server((HOST, 0)) as server:
+        print(server.getsockname()[1], flush=True)
+        while True:
+            connection, _ = server.accept()
+            with connection:
+                _serve(connection, line)
+
+
+class _Line:
+    """A bus that two threads use, in the time of the machine."""
+
+    def __init__(self, bus: Bus, begun_us: int) -> None:
+        self._bus, self._begun_us = bus, begun_us
+        self._lock = threading.Lock()
+
+    def _now_us(self) -> int:
+        return RealClock().now_us() - self._begun_us
+
+    @property
+    def speaking(self) -> bool:
+        return self._bus.speaking
+
+    def send(self, data: bytes) -> None:
+        with self._lock:
+            self._bus.send(data, self._now_us())
+
+    def receive(self) -> bytes:
+        with self._lock:
+            return self._bus.receive(self._now_us())
+
+    def happen(self, act: Act) -> None:
+        with self._lock:
+            self._bus.happen(act, self._now_us())
+
+
+def _serve(connection: socket.socket, line: _Line) -> None:
+    connection.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+    try:
+        while True:
+            ready, _, _ = select.select([connection], [], [], LOOK_S if line.speaking else None)
+            if ready:
+                data = connection.recv(4096)
+                if not data:
+                    return
+                line.send(data)
+            heard = line.receive() if line.speaking else b""
+            if heard:
+                connection.sendall(heard)
+    except OSError:
+        return
+
+
+def _listen(line: _Line, drives: Mapping[int, Drive]) -> None:
+    """Let happen what is said; what ends later is said then."""
+    for text in sys.stdin:
+        for happening in said(text.strip(), drives):
+            if not happening.at_us:
+                line.happen(happening.act)
+    os._exit(0)
+
+
+if __name__ == "__main__":
+    main(sys.argv[1])

@@ -1,0 +1,176 @@
+"""From the words of the command line to drives on a line."""
+
+import re
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from contextlib import ExitStack
+from dataclasses import dataclass
+from pathlib import Path
+
+from driveblocks import console
+from driveblocks.desk import port, scenario
+from driveblocks.desk.bus import Bus, Frame
+from driveblocks.desk.clock import RealClock
+from driveblocks.desk.ending import Ending, listening
+from driveblocks.desk.run.drives import named
+from driveblocks.desk.run.drives import words as drives_of
+from driveblocks.desk.screen import Heading, Lines, LiveTable, Screen
+from driveblocks.desk.simulate.link import HOST, Link, PtyLink, TcpLink, UnavailableError, WithoutEcho
+from driveblocks.desk.simulate.neighbour import Neighbours
+from driveblocks.desk.simulate.stand import Stand, view
+from driveblocks.desk.words import LOOPBACK, NO_PORT, Refused, time
+from driveblocks.maps import catalog
+from driveblocks.maps.load import load
+from driveblocks.maps.model import Drive
+from driveblocks.maps.problem import MapError
+
+LABEL = "SIMULATED"
+TCP = 5020
+COUNTED = "heard/answered/refused"
+_FORM = re.compile(r"[78][NEO][12]")
+Traced = Callable[[Mapping[int, Drive]], Callable[[Frame], Iterable[str]]]
+"""From drives by unit to what says a frame of theirs in lines."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Words:
+    """The words of the command line."""
+
+    drives: Sequence[str]
+    port: str | None = None
+    tcp: str | None = None
+    pty: bool = False
+    baud: int = 19200
+    form: str = "8N1"
+    ascii: bool = False
+    scenario: Path | None = None
+    length: str | None = None
+
+
+class Setup:
+    """Drives that are ready to be put on a line."""
+
+    def __init__(self, words: Words, traced: Traced | None = None) -> None:
+        """Judge the words; with `traced` every frame is printed. Raises Refused with all that is wrong with them."""
+        self._words = words
+        if mistakes := list(self._wrong()):
+            raise Refused("\n".join(mistakes))
+        self._for_us = None if words.length is None else time("--for", words.length, 1, 10**15)
+        self._clock, self._ending = RealClock(), Ending()
+        try:
+            wanted = named(drives_of(words.drives), _map)
+            self.maps = {one.unit: one.drive for one in wanted}
+            happenings = scenario.read(words.scenario, self.maps) if words.scenario else []
+        except (catalog.UnknownDrive, MapError) as error:
+            raise Refused(str(error)) from None
+        drives = [one.made(ascii_mode=words.ascii) for one in wanted]
+        self._settings = [line for one in wanted for line in one.told()]
+        bits = 1 + int(words.form[0]) + (words.form[1] != "N") + int(words.form[2])
+        self._bus = Bus(drives, words.baud, bits, ascii_mode=words.ascii)
+        self._happenings = happenings
+        self._lines = traced(self.maps) if traced is not None else None
+
+    def _wrong(self) -> list[str]:
+        words, found = self._words, []
+        ways = [name for name, given in (("--port", words.port), ("--tcp", words.tcp), ("--pty", words.pty)) if given]
+        if len(ways) > 1:
+            found.append(f"{' and '.join(ways)} exclude each other; name one place for the master")
+        host, colon, number = (words.tcp or "").rpartition(":")
+        good = colon and host in LOOPBACK and number.isdecimal() and int(number) <= 0xFFFF
+        if words.tcp is not None and not good:
+            found.append(f"--tcp {words.tcp}: a simulator serves this computer only; write --tcp {HOST}:{TCP}")
+        if words.port == "":
+            found.append(NO_PORT)
+        if not 300 <= words.baud <= 1_000_000:
+            found.append(f"--baud {words.baud} is no rate; write 300 to 1000000")
+        if not _FORM.fullmatch(words.form):
+            found.append(f"--format {words.form} is no format; write 8N1, 8E1, 8O1, 8N2 or 7E1")
+        return found
+
+    # ------------------------------------------------------------ the run
+
+    def run(self) -> None:
+        """Serve until the end. Raises Refused if the line cannot be had."""
+        with ExitStack() as stack, listening(self._ending):
+            link, place = self._link()
+            stack.callback(link.close)
+            if self._words.port is not None:
+                link = self._alone(link)
+            screen = self._screen(place)
+            stack.callback(screen.close)
+            for line in (self._told(place), *self._settings):
+                self._sayer(screen)(line)
+            Stand(self._bus, link, self._clock, self._ending, self._happenings).run(
+                self._sayer(screen), self._looker(screen), self._for_us
+            )
+            self._looker(screen)(self._clock.now_us() - self._begun_us)
+        console.write(*(f"{LABEL}  {line}" for line in (self._ending.reason, *self._summary())))
+
+    def _link(self) -> tuple[Link, str]:
+        words = self._words
+        try:
+            if words.port is not None:
+                return port.serial_port(words.port, words.baud, words.form, self._clock), words.port
+            if words.pty:
+                pty = PtyLink()
+                return pty, pty.place
+            tcp = TcpLink(int((words.tcp or f":{TCP}").rpartition(":")[2]))
+        except (UnavailableError, ImportError) as error:
+            raise Refused(str(error)) from None
+        except (OSError, ValueError) as error:
+            place = words.port or ("--pty" if words.pty else words.tcp or f"{HOST}:{TCP}")
+            raise Refused(f"{place}: {port.reason(error)}; name another place by --tcp, --pty or --port") from None
+        return tcp, tcp.place
+
+    def _alone(self, link: Link) -> Link:
+        """The real port, when no real unit is there. Raises Refused."""
+        neighbours = Neighbours(link, self._clock, self.maps, ascii_mode=self._words.ascii)
+        why = neighbours.found(lambda text: console.write(f"{LABEL} on REAL PORT {self._words.port}  {text}"))
+        if why:
+            raise Refused(f"{self._words.port}: {why}")
+        return WithoutEcho(link) if neighbours.echo else link
+
+    def _screen(self, place: str) -> Screen:
+        terminal = console.terminal()
+        self._begun_us = self._clock.now_us()
+        if terminal.is_terminal and not terminal.is_dumb_terminal:
+            title = f"REAL PORT {place}" if self._words.port is not None else place
+            return LiveTable(Heading(LABEL, title, real=self._words.port is not None, remark=COUNTED))
+        return Lines(LABEL, brief=True)
+
+    def _told(self, place: str) -> str:
+        words = self._words
+        drives = ", ".join(f"{drive.prefix} at unit {unit}" for unit, drive in self.maps.items())
+        real = "REAL PORT " if words.port is not None else ""
+        mode = "ASCII" if words.ascii else "RTU"
+        return f"{drives}; MODBUS {mode}, {words.baud} bit/s {words.form}, on {real}{place}; Ctrl-C ends"
+
+    def _sayer(self, screen: Screen) -> Callable[[str], None]:
+        head = "" if isinstance(screen, Lines) else f"{LABEL}  "
+        return lambda text: screen.say(f"{head}{text}")
+
+    def _looker(self, screen: Screen) -> Callable[[int], None]:
+        say = self._sayer(screen)
+
+        def look(at_us: int) -> None:
+            while self._bus.frames:
+                frame = self._bus.frames.popleft()
+                for line in self._lines(frame) if self._lines is not None else ():
+                    say(line)
+            screen.show(view(self._bus, self.maps, at_us, counted=isinstance(screen, LiveTable)))
+
+        return look
+
+    def _summary(self) -> list[str]:
+        bus, loss = self._bus, self._bus.loss
+        lines = [
+            f"{drive.prefix} at unit {unit}: {bus.counts[unit].heard} requests, {bus.counts[unit].replied} replies, "
+            f"{bus.counts[unit].refused} of them refusals"
+            for unit, drive in self.maps.items()
+        ]
+        return [*lines, f"{loss.dropped} frames lost, {loss.damaged} damaged, {bus.strange} characters not understood"]
+
+
+def _map(name: str) -> tuple[Path, Drive]:
+    """A drive's map. Raises UnknownDrive, MapError."""
+    path = catalog.resolve(name)
+    return path, load(path)

@@ -1,0 +1,233 @@
+"""A line as the command line asks for it: a program or named drives, and what is to be other than they say."""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+from driveblocks.desk.run import probe, source
+from driveblocks.desk.run.controller import Controller
+from driveblocks.desk.run.drives import Named
+from driveblocks.desk.run.drives import named as drives_of
+from driveblocks.desk.run.drives import words as words_of
+from driveblocks.desk.run.watchdog import FIRST_US
+from driveblocks.desk.site.line import CHARACTER_BITS, LEARNED_AFTER, PINS, SLOT, Line, Unit, number
+from driveblocks.desk.words import Refused, time
+from driveblocks.maps import catalog
+from driveblocks.maps.collection import Source
+from driveblocks.maps.model import Drive
+from driveblocks.maps.plan import reply_delay
+from driveblocks.maps.polls import Poll, polls
+from driveblocks.maps.problem import MapError
+from structured_text.engines.embedded.library import EmbeddedInstance
+from structured_text.visible import file_name
+
+MOST_UNITS = 32
+USUAL = {"BitRate": 9600, "CharacterBits": 10}
+"""What a line takes where a pin is 0."""
+USUAL_REPLY_MS = 20
+"""What a drive takes until its reply begins, where nobody and no map says more."""
+_PARITY = {"none": "N", "even": "E", "odd": "O"}
+
+
+@dataclass(frozen=True, kw_only=True)
+class Words:
+    """The words of the command line."""
+
+    line: tuple[str, ...]
+    maps: tuple[str, ...] = ()
+    name: str | None = None
+    device: tuple[int, ...] = ()
+    rate: int | None = None
+    form: str | None = None
+    ascii: bool = False
+    scan: str = "10ms"
+    max_scan: str | None = None
+    keeps_silence: bool = False
+    port_late: str | None = None
+    reply: str | None = None
+    watchdog: str | None = None
+    stop_within: str | None = None
+
+
+def line(words: Words) -> Line:
+    """The line. Raises Refused with everything that is wrong with the words, or with the program."""
+    wrong: list[str] = []
+    times = {
+        name: _ms(option, text, least, most, wrong)
+        for name, (option, text, least, most) in {
+            "scan": ("--scan", words.scan, 1, 1000),
+            "max_scan": ("--max-scan", words.max_scan, 1, 60_000),
+            "port_late": ("--port-late", words.port_late, 0, 10_000),
+            "reply": ("--reply", words.reply, 1, 500),
+            "watchdog": ("--watchdog", words.watchdog, 1, 60_000),
+            "within": ("--stop-within", words.stop_within, 1, 60_000),
+        }.items()
+    }
+    scan, most = times["scan"], times["max_scan"]
+    if scan and most and most < scan:
+        wrong.append(f"--max-scan {words.max_scan} is shorter than --scan {words.scan}")
+    wrong += _wrong_words(words)
+    name, text, maps = _program(words, times["watchdog"] or 0, wrong)
+    if wrong:
+        raise Refused("\n".join(wrong))
+    loaded = probe.compiled(name, text, maps, words.name)
+    made = _line(words, probe.probed(loaded, 1000 * (scan or 0), FIRST_US), loaded, times)
+    if mistakes := list(_wrong_line(made, words)):
+        raise Refused("\n".join(mistakes))
+    return made
+
+
+def _ms(option: str, text: str | None, least: int, most: int, wrong: list[str]) -> int | None:
+    """A time in ms; None where it is not given, or wrong, which is added to `wrong`."""
+    try:
+        return None if text is None else time(option, text, 1000 * least, 1000 * most) // 1000
+    except Refused as refused:
+        wrong.append(str(refused))
+        return None
+
+
+def _wrong_words(words: Words) -> Iterator[str]:
+    if not (words.line or words.device):
+        yield "name a drive or a program; for example: driveblocks line chf@1 jscc@2"
+    if words.rate is not None and not 300 <= words.rate <= 1_000_000:
+        yield f"--rate {words.rate} is out of range; write 300 to 1000000 bit/s"
+    if words.form is not None and words.form.upper() not in CHARACTER_BITS:
+        yield f"--format {words.form} is no format; write one of {', '.join(CHARACTER_BITS)}"
+    for count in words.device:
+        if not 1 <= count <= 16:
+            yield f"--device {count} is out of range; write 1 to 16 registers"
+
+
+def _is_program(words: Words) -> bool:
+    return any(each.lower().endswith(".st") for each in words.line)
+
+
+def _program(words: Words, watchdog: int, wrong: list[str]) -> tuple[str, str, list[Source]]:
+    """Name and text of the program, and the maps; what is wrong is added to `wrong`."""
+    try:
+        named = [catalog.resolve(each) for each in words.maps]
+        if _is_program(words):
+            if len(words.line) > 1:
+                wrong.append("name one program, or drives")
+            for option, given in (("--device", words.device), ("--watchdog", words.watchdog)):
+                if given:
+                    wrong.append(f"{option} is for named drives; a program says so itself")
+            path = Path(words.line[0])
+            name = file_name(catalog.shown(path))
+            return name, probe.text(path, name), source.known(named)
+        if words.name:
+            wrong.append("--program is for a file with several PROGRAMs")
+        asked = words_of(words.line)
+        maps = source.known([*named, *(catalog.resolve(each.name) for each in asked if catalog.is_path(each.name))])
+        known = {each.path.resolve(): (each.path, each.drive) for each in maps}
+        drives = drives_of(asked, lambda each: _found(each, known))
+        if len(drives) + len(words.device) > MOST_UNITS:
+            wrong.append(f"{len(drives) + len(words.device)} units; a line has 1 to {MOST_UNITS}")
+        return "line.st", _text(words, drives, watchdog), maps
+    except (catalog.UnknownDrive, MapError, Refused) as error:
+        wrong.append(str(error))
+        return "", "", []
+
+
+def _found(name: str, known: dict[Path, tuple[Path, Drive]]) -> tuple[Path, Drive]:
+    return known[catalog.displacing(catalog.resolve(name), [path for path, _ in known.values()]).resolve()]
+
+
+def _text(words: Words, drives: list[Named], watchdog: int) -> str:
+    """A program with these drives and devices on one line."""
+    size = 8 if len(drives) + len(words.device) <= 8 else MOST_UNITS
+    taken = {each.unit for each in drives}
+    free = (unit for unit in range(1, 248) if unit not in taken)
+    declared, called = [], []
+    for at, each in enumerate(drives):
+        pins = f"Address := {each.unit}, MaximumHz := 50.0, StopWithinMs := 65534, Settings := Setting"
+        declared.append(f"  {each.drive.prefix}_{each.unit} : {each.drive.prefix}_Drive;\n")
+        called.append(f"  {each.drive.prefix}_{each.unit}({pins}, Slot := Slots[{at}]);\n")
+    for at, (count, unit) in enumerate(zip(words.device, free, strict=False), len(drives)):
+        declared.append(f"  Device_{unit} : MB_Device;\n")
+        called.append(
+            f"  Device_{unit}(Address := {unit}, Quantity := {count}, Slot := Slots[{at}], Words := Values);\n"
+        )
+    return (
+        f"PROGRAM TypedLine\nVAR\n  RxCount : UINT;\n  RxChars : MB_Adu;\n  TxChars : MB_LineFrame;\n"
+        f"  Values : MB_Words16;\n  Setting : VFD_Settings;\n  Slots : MB_Slots{size};\n  Bus : MB_ByteLine{size};\n"
+        f"{''.join(declared)}END_VAR\n  Setting.WatchdogMs := {watchdog};\n{''.join(called)}"
+        f"  Bus(RxCount := RxCount, RxChars := RxChars, TxChars := TxChars, Slots := Slots);\nEND_PROGRAM\n"
+    )
+
+
+# ------------------------------------------------------------ what the program says of it
+
+
+def _line(words: Words, seen: Controller, loaded: source.Loaded, times: Mapping[str, int | None]) -> Line:
+    """The line of a program that was scanned once. Raises Refused."""
+    bus, block = seen.wiring.line, seen.instance
+    size = _size(block, bus)
+    port = f"{seen.wiring.port}.LateMs" if seen.wiring.port else f"{bus}.PortLateMs"
+    keeps = f"{seen.wiring.port}.KeepsSilence" if seen.wiring.port else f"{bus}.KeepsSilence"
+    scan, unlearned = times["scan"] or 0, _slots(seen, size)
+    delays = (reply_delay(each.drive)[0] or 0 for each in _units(seen, size) if each.drive)
+    reply = times["reply"] or max([USUAL_REPLY_MS, *delays])
+    for at in range(size):
+        block[f"{bus}.Slots[{at}].Replies"] = LEARNED_AFTER
+        block[f"{bus}.Slots[{at}].LongestReplyMs"] = reply
+    seen.scan(2000 * scan)
+    late, form = times["port_late"], (words.form or "").upper()
+    return Line(
+        library=loaded.library, size=size, slots=_slots(seen, size), unlearned=unlearned, units=_units(seen, size),
+        pins={name: number(block, f"{bus}.{name}") for name in PINS}, within=times["within"],
+        rate=words.rate or number(block, f"{bus}.BitRate") or USUAL["BitRate"],
+        bits=CHARACTER_BITS.get(form) or number(block, f"{bus}.CharacterBits") or USUAL["CharacterBits"],
+        ascii=words.ascii or bool(number(block, f"{bus}.Ascii")), scan=scan, reply=reply,
+        max_scan=times["max_scan"] or number(block, f"{bus}.MaxScanMs") or 2 * scan,
+        keeps=words.keeps_silence or bool(number(block, keeps)),
+        port_late=number(block, port) if late is None else late,
+    )  # fmt: skip
+
+
+def _size(block: EmbeddedInstance, bus: str) -> int:
+    """How many slots the line has."""
+    try:
+        block[f"{bus}.Slots[8].Alive"]
+    except KeyError:
+        return 8
+    return MOST_UNITS
+
+
+def _slots(seen: Controller, size: int) -> dict[str, int]:
+    paths = [f"Slots[{at}].{name}" for at in range(size) for name in SLOT]
+    return {path: number(seen.instance, f"{seen.wiring.line}.{path}") for path in paths}
+
+
+def _units(seen: Controller, size: int) -> tuple[Unit, ...]:
+    """The units by their slots; a slot that no drive block has is a device's."""
+    bus, block, found = seen.wiring.line, seen.instance, list[Unit]()
+    drives = {seen.unit(each): each for each in seen.wiring.drives}
+    for at in range(size):
+        unit, slot = number(block, f"{bus}.Slots[{at}].UnitAddress"), f"{bus}.Slots[{at}]"
+        every = number(block, f"{slot}.PollEveryMs")
+        if unit in drives and unit:
+            each, drive = drives[unit], seen.drive(drives[unit])
+            watchdog = number(block, f"{each.path}.Usual.WatchdogMs")
+            found.append(Unit(each.path, unit, polls(drive), drive, every, watchdog))
+        elif unit:
+            read = Poll(number(block, f"{slot}.Ask[0].FunctionCode"), 0, number(block, f"{slot}.Ask[3].Quantity"), True)
+            found.append(Unit("device", unit, (read,), None, every))
+    return tuple(found)
+
+
+def _wrong_line(made: Line, words: Words) -> Iterator[str]:
+    if words.form and words.form[0] == "7" and not made.ascii:
+        yield "7 data bits are for ASCII; add --ascii"
+    if not any(each.drive for each in made.units):
+        yield "there is no drive on the line; name one, such as chf@1"
+    mode = "ascii" if made.ascii else "rtu"
+    for name, serial in [(each.name, each.drive.serial) for each in made.units if each.drive]:
+        rates = [code.baud for code in serial.baud.codes] if serial.baud else []
+        if rates and made.rate not in rates:
+            yield f"{name} has no {made.rate} bit/s; its manual names {', '.join(map(str, sorted(rates)))}"
+        if mode not in serial.mode.modes:
+            yield f"{name} speaks no {mode.upper()}"
+        parities = {_PARITY[code.parity] for code in serial.format.codes} if serial.format else set()
+        if words.form and parities and words.form[1].upper() not in parities:
+            yield f"{name} has no parity {words.form[1].upper()}; its manual names {', '.join(sorted(parities))}"

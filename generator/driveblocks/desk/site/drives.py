@@ -1,0 +1,214 @@
+"""`driveblocks parameters`: a drive's words into a file, and two of drives and files beside each other."""
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+
+from rich.console import RenderableType
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn
+
+from driveblocks import console
+from driveblocks.desk import port
+from driveblocks.desk.clock import RealClock
+from driveblocks.desk.port import Port
+from driveblocks.desk.run.ask import Speech
+from driveblocks.desk.run.drives import named, words
+from driveblocks.desk.site import adapter
+from driveblocks.desk.site.found import Way
+from driveblocks.desk.site.line import CHARACTER_BITS
+from driveblocks.desk.site.reader import LostError, One, Reader, heard
+from driveblocks.desk.site.register import Row, rows, unread, value
+from driveblocks.desk.site.saved import Saved, Word, read, write
+from driveblocks.desk.words import Refused, time
+from driveblocks.maps import catalog
+from driveblocks.maps.form import address_text
+from driveblocks.maps.load import load
+from driveblocks.maps.model import Drive
+from driveblocks.maps.problem import MapError
+from driveblocks.maps.revision import revision
+from driveblocks.show.layout import table
+from structured_text.visible import file_name
+
+HIGHEST_PATIENCE_US = 3_600_000_000
+MOST_NAMED = 8
+"""Registers in one line."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Place:
+    """Where drives are, in the words of the command line."""
+
+    port: str | None = None
+    tcp: str | None = None
+    rate: int = 9600
+    form: str = "8N1"
+    ascii: bool = False
+    patience: str = "30s"
+
+    def wrong(self) -> Iterator[str]:
+        """What does not go together."""
+        yield from adapter.wrong(self.port, self.tcp, self.rate, self.form, who="the drive")
+        try:
+            time("--patience", self.patience, 0, HIGHEST_PATIENCE_US)
+        except Refused as refused:
+            yield str(refused)
+
+    @contextmanager
+    def _opened(self, clock: RealClock) -> Iterator[Port]:
+        """The port, on which nobody speaks. Raises Refused."""
+        try:
+            made = adapter.at(self.port, self.tcp, clock)(Way(self.rate, self.form.upper()))
+        except ImportError as error:
+            raise Refused(f"--port needs pyserial, which does not run here: {error}") from None
+        except (OSError, ValueError, OverflowError) as error:
+            raise Refused(f"{self.port or self.tcp}: {port.reason(error)}") from None
+        try:
+            if heard(made, clock):
+                raise Refused(f"{self.port or self.tcp}: somebody else speaks on this line; disconnect the PLC")
+            yield made
+        finally:
+            made.close()
+
+    def take(self, one: One, found: dict[int, Word], keep: Callable[[], None], name: str = "") -> None:
+        """Read a drive; `name` is the file of what was found before. Raises Refused, LostError."""
+        clock, screen = RealClock(), console.terminal()
+        columns = TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn()
+        speech = Speech(self.ascii, 1_000_000 * CHARACTER_BITS[self.form.upper()] / self.rate)
+        bars = Progress(*columns, console=screen, disable=not screen.is_terminal, transient=True)
+        with self._opened(clock) as opened, bars as bar:
+            task = bar.add_task(one.name, total=len(rows(one.drive)), completed=len(found))
+
+            def kept() -> None:
+                keep()
+                bar.update(task, completed=len(found), description=one.name)
+
+            reader = Reader(opened, clock, one, speech, time("--patience", self.patience, 0, HIGHEST_PATIENCE_US))
+            if why := reader.stranger():
+                raise Refused(why)
+            if why := reader.changed(found):
+                raise Refused(f"{name} is of another drive, or it was changed since: {why}; name another file")
+            reader.read(found, kept, lambda why: bar.update(task, description=f"{one.name}: {why}"))
+
+
+def drive(word: str) -> One:
+    """The drive that a word names. Raises Refused."""
+    try:
+        (one,) = named(words([word])[:1] or words(["?"]), _map)
+    except (catalog.UnknownDrive, MapError) as error:
+        raise Refused(str(error)) from None
+    return One(one.path.stem, one.drive, one.unit)
+
+
+def _map(name: str) -> tuple[Path, Drive]:
+    path = catalog.resolve(name)
+    return path, load(path)
+
+
+def save(word: str, path: Path, place: Place) -> str:
+    """Read a drive into a file, from where it ended before; what was done. Raises Refused, LostError, OSError."""
+    wrong, ready = list(place.wrong()), list[tuple[One, dict[int, Word]]]()
+    try:
+        named_one = drive(word)
+        ready.append((named_one, _begun(path, named_one)))
+    except Refused as refused:
+        wrong.append(str(refused))
+    if wrong:
+        raise Refused("\n".join(wrong))
+    ((one, found),) = ready
+    every = len(rows(one.drive))
+    try:
+        place.take(one, found, lambda: write(path, one.stem, one.drive, one.unit, found), file_name(path))
+    except (LostError, KeyboardInterrupt) as error:
+        kept = f"{file_name(path)} has {len(found)} of {every} registers; the same command reads the rest"
+        raise LostError(f"{str(error) or 'Ctrl-C'}; {kept if found else 'nothing was written'}") from error
+    silent = sum(isinstance(each, str) for each in found.values())
+    without = f", {silent} of them not given by the drive" if silent else ""
+    return "\n".join((f"{one.name}: {every} registers{without}, in {file_name(path)}", *unread(one.drive)))
+
+
+def _begun(path: Path, one: One) -> dict[int, Word]:
+    """What a file has already. Raises Refused where it is complete, or another drive's."""
+    if not path.exists():
+        return {}
+    there = read(path)
+    if (there.stem, there.unit) != (one.stem, one.unit):
+        raise Refused(f"{there.where} is of {there.stem} at unit {there.unit}; name another file")
+    if there.revision != f"{revision(one.drive):08X}":
+        raise Refused(f"{there.where} is of another revision of the map; name another file")
+    if len(there.words) == len(rows(one.drive)):
+        raise Refused(f"{there.where} is complete; name another file")
+    return there.words
+
+
+def compare(
+    sides: tuple[str, str], place: Place, own: str | None, *, everything: bool
+) -> tuple[list[RenderableType], bool]:
+    """The differences of two sides, each a file or a drive, and whether there may be any. Raises Refused, LostError.
+
+    `own` is the map of two files, where it is not shipped.
+    """
+    files = [_is_file(each) for each in sides]
+    wrong = [] if all(files) else list(place.wrong())
+    found: list[Saved | One] = []
+    for word, is_file in zip(sides, files, strict=True):
+        try:
+            found.append(read(Path(word)) if is_file else drive(word))
+        except Refused as refused:
+            wrong.append(str(refused))
+    if len(found) == 2 and found[0].stem != found[1].stem:
+        wrong.append(f"{sides[0]} is of {found[0].stem}, {sides[1]} of {found[1].stem}: compare drives of one family")
+    if wrong:
+        raise Refused("\n".join(wrong))
+    model = next((each.drive for each in found if isinstance(each, One)), None) or drive(own or found[0].stem).drive
+    if not everything and not any(each.set for each in rows(model)):
+        raise Refused(f"the map of {model.prefix} names no parameter that may be read; write --all")
+    both = [each if isinstance(each, Saved) else _taken(each, place) for each in found]
+    return _differences(model, both[0], both[1], everything=everything)
+
+
+def _is_file(word: str) -> bool:
+    return word.lower().endswith(".csv") or (Path(word).is_file() and not catalog.is_path(word))
+
+
+def _taken(one: One, place: Place) -> Saved:
+    found: dict[int, Word] = {}
+    place.take(one, found, lambda: None)
+    return Saved(one.name, one.stem, one.unit, found, f"{revision(one.drive):08X}")
+
+
+def _differences(model: Drive, left: Saved, right: Saved, *, everything: bool) -> tuple[list[RenderableType], bool]:
+    """The rows that differ, in the order of the manual; what was not read on both sides is counted."""
+    compared = [each for each in rows(model) if everything or each.set]
+    both = [each for each in compared if each.address in left.words and each.address in right.words]
+    both = [each for each in both if any(isinstance(one.words[each.address], int) for one in (left, right))]
+    differing = [each for each in both if left.words[each.address] != right.words[each.address]]
+    heads = [Path(each.where).name for each in (left, right)]
+    heads = [left.where, right.where] if heads[0] == heads[1] else heads
+    made = table("id", "register", "name", *heads, "default", wide=("name", *heads))
+    for row in differing:
+        shown = [_shown(row, each) for each in (left, right)]
+        made.add_row(row.id, address_text(row.address), row.name, *shown, row.default)
+    what = "registers" if everything else "parameters"
+    lines = [f"{len(differing)} of {len(both)} {what} differ" if differing else f"{len(both)} {what} are equal"]
+    if missing := len(both) < len(compared):
+        lines.append(f"{len(compared) - len(both)} were not read on both sides")
+    if {left.revision, right.revision} != {f"{revision(model):08X}"}:
+        lines.append("the revisions of the maps differ: names and units are those of the map as it is now")
+    if strange := sorted(_unlisted(model, left.words, right.words)):
+        which = ", ".join(map(address_text, strange[:MOST_NAMED])) + (", ..." if len(strange) > MOST_NAMED else "")
+        lines.append(f"{len(strange)} that the map does not list now differ, or were not read on both sides: {which}")
+    return [*([made] if differing else []), "\n".join(lines)], missing or bool(differing or strange)
+
+
+def _unlisted(model: Drive, left: dict[int, Word], right: dict[int, Word]) -> Iterator[int]:
+    """What only another version of the map lists, and is not known to be equal."""
+    for address in (left.keys() | right.keys()) - {each.address for each in rows(model)}:
+        if left.get(address) != right.get(address) or not isinstance(left[address], int):
+            yield address
+
+
+def _shown(row: Row, side: Saved) -> str:
+    word = side.words[row.address]
+    known = {address: each for address, each in side.words.items() if isinstance(each, int)}
+    return " ".join(filter(None, value(row, word, known))) if isinstance(word, int) else word

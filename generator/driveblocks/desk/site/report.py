@@ -1,0 +1,100 @@
+"""The figures of a line as tables, and as JSON."""
+
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+from rich.console import RenderableType
+from rich.text import Text
+
+from driveblocks.desk.site.line import Figures
+from driveblocks.maps.conduct import reply_delay
+from driveblocks.show.layout import facts, table
+
+
+def tables(tried: Sequence[Figures]) -> Iterator[RenderableType]:
+    """What a person reads: the line at its own rate, then every rate."""
+    own = next(each for each in tried if each.rate == each.line.rate)
+    yield facts(*_said(own))
+    yield Text()
+    yield _units(own)
+    yield Text()
+    yield _rates(tried)
+    yield Text()
+    yield verdict(tried)
+
+
+def plain(tried: Sequence[Figures]) -> dict[str, Any]:
+    """The same for scripts: times in ms, shares in percent."""
+    line = tried[0].line
+    return {
+        "rate": line.rate, "bits": line.bits, "ascii": line.ascii, "scan": line.scan, "max_scan": line.max_scan,
+        "reply": line.reply, "port_late": line.port_late, "stop_within": line.within,
+        "smallest_rate": next((each.rate for each in tried if not each.broken), None),
+        "rates": [_at(each) for each in tried],
+    }  # fmt: skip
+
+
+def verdict(tried: Sequence[Figures]) -> str:
+    """The smallest rate that holds."""
+    line, found = tried[0].line, next((each.rate for each in tried if not each.broken), None)
+    asked = [f"all stops are sent within {line.within} ms"] if line.within else []
+    if any(each.watchdog_ms for each in line.units):
+        asked.append("every watchdog is fed in half of its time")
+    if not asked:
+        return "--stop-within and --watchdog find the smallest rate that holds."
+    what = " and ".join(asked)
+    return f"The smallest rate at which {what}: {found} bit/s." if found else f"There is no rate at which {what}."
+
+
+def _said(own: Figures) -> Iterator[tuple[str, object]]:
+    line = own.line
+    who = "the line" if own.line_keeps else "the port"
+    yield "line", f"{own.rate} bit/s, {line.bits} bits per character, {'ASCII' if line.ascii else 'RTU'}"
+    yield "scan", f"{line.scan} ms, at most {line.max_scan} ms"
+    late = f"; the port delays frames by up to {line.port_late} ms" if line.port_late else ""
+    yield "silence", f"{own.silence:.3g} ms, kept by {who}{late}"
+    yield "replies", f"begin after {line.reply} ms"
+    for name, said in {each.drive.prefix: reply_delay(each.drive) for each in line.units if each.drive}.items():
+        if said is not None:
+            yield "", f"{name} answers later {said}; give --reply where it is set so"
+    yield "one stop", f"sent within {own.alone} ms"
+    yield "all stops", f"sent within {own.worst} ms; within {own.unlearned} ms before the drives have replied"
+    yield "cut cable", f"StopOverdue after {own.cut} ms at most, where no drive answers any more"
+    yield "one round", f"{own.round} ms; a request is open for {own.load} % of it"
+
+
+def _units(own: Figures) -> RenderableType:
+    watched = any(each.feed for each in own.ages)
+    numbers = "unit", "read every", "with writes", "oldest", "others", *(["watchdog"] if watched else [])
+    made = table("unit", "ms", *numbers[1:], numbers=numbers, wide=("ms",))
+    for each in own.ages:
+        times = each.every, each.writing, each.oldest, each.rest, *([each.margin] if watched else [])
+        made.add_row(str(each.unit.unit), each.unit.name, *("-" if ms is None else str(ms) for ms in times))
+    return made
+
+
+def _rates(tried: Sequence[Figures]) -> RenderableType:
+    numbers = "bit/s", "one round", "open", "one stop", "all stops", "cut cable"
+    made = table(*numbers, "holds", numbers=numbers)
+    for each in tried:
+        times = (f"{ms} ms" for ms in (each.alone, each.worst, each.cut))
+        holds = f"no: {' and '.join(each.broken)}" if each.broken else "yes"
+        made.add_row(str(each.rate), f"{each.round} ms", f"{each.load} %", *times, holds)
+    return made
+
+
+def _at(each: Figures) -> dict[str, Any]:
+    return {
+        "rate": each.rate, "silence_kept_by": "line" if each.line_keeps else "port", "silence": round(each.silence, 3),
+        "round": each.round, "open_percent": each.load, "one_stop": each.alone, "all_stops": each.worst,
+        "all_stops_before_replies": each.unlearned, "cut_to_contact": each.cut, "broken": each.broken,
+        "units": [
+            {
+                "unit": one.unit.unit, "name": one.unit.name,
+                "drive": one.unit.drive.prefix if one.unit.drive else None,
+                "status_every": one.every, "status_every_with_writes": one.writing, "oldest_status": one.oldest,
+                "oldest_other": one.rest, "watchdog": one.unit.watchdog_ms or None, "watchdog_margin": one.margin,
+            }
+            for one in each.ages
+        ],
+    }  # fmt: skip
