@@ -38,6 +38,13 @@ def test_a_motor_runs_and_stops(text: str) -> None:
     assert (desk.controller.number("Bus.Bad"), desk.controller.number("Bus.Timeouts")) == (0, 0)
 
 
+def test_a_program_scales_an_analog_input_in_single_precision() -> None:
+    text = ONE.replace("  Start : BOOL;", "  Start : BOOL;\n  Raw : INT := 14000;").replace(
+        "END_VAR\n", "END_VAR\n  Hz := (INT_TO_REAL(Raw) / 27648.0 - 0.2) / 0.8 * 50.0;\n", 1
+    )
+    assert Desk(text).started().instance["Hz"] == 19.147857666015625
+
+
 def test_a_line_speaks_ascii() -> None:
     text = ONE.replace("BitRate := 19200", "Ascii := TRUE, BitRate := 19200").replace("JSCC", "CHF")
     desk = ended(Desk(text, [SimulatedDrive(MAPS["CHF"], 7, ascii_mode=True)], frozenset({(7, "Motor")})))
