@@ -1,5 +1,6 @@
 """Rules on registers, their bits, values, ranges and scales."""
 
+from driveblocks.maps.factor import doubt
 from driveblocks.maps.form import Span, address_text, bits_text, is_bit, span_text
 from driveblocks.maps.model import Bit, Drive, Manual, Numbering, OtherScale, Range, Register, Scale, Value
 from driveblocks.maps.problem import Report
@@ -178,6 +179,8 @@ def _scale(row: Register, report: Report) -> None:
             report.add(
                 one.place("factor"), f"factor {one.factor} is not positive", "write units per count, such as 0.01"
             )
+        elif row.unit and (wrong := doubt(one.factor, row.unit, 16 * row.size)):
+            report.add(one.place("factor"), *wrong)
     if row.scale.otherwise:
         _otherwise(row, row.scale, report)
     if row.values or row.bits:
