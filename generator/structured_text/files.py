@@ -1,25 +1,188 @@
-"""Sources as a user names them: files, and folders of them."""
+"""The one door for files: a reader of every input, a writer of every output, and the sources that a user names."""
 
+import errno
 import os
-from collections.abc import Sequence
+import secrets
+import stat
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager, suppress
+from io import FileIO
 from pathlib import Path
 
 from structured_text.visible import file_name
 
-# A source of more is no source; the largest library in public use has a tenth of it.
-MOST_BYTES = 8 << 20
+MOST_TEXT = 8 << 20
+"""A text of more is no source and no table; the largest library in public use has a tenth of it."""
+MOST_BYTES = 256 << 20
+_MARKS = {
+    b"\xff\xfe\x00\x00": "UTF-32", b"\x00\x00\xfe\xff": "UTF-32", b"\xff\xfe": "UTF-16", b"\xfe\xff": "UTF-16",
+}  # fmt: skip
+_KINDS = {
+    stat.S_IFDIR: "a directory", stat.S_IFIFO: "a named pipe", stat.S_IFSOCK: "a socket",
+    stat.S_IFCHR: "a device", stat.S_IFBLK: "a device",
+}  # fmt: skip
+_BINARY = getattr(os, "O_BINARY", 0)
+_NO_LINK = os.O_CREAT | getattr(os, "O_NOFOLLOW", 0)  # Windows has no O_NOFOLLOW
 
 
-def read(named: Sequence[Path]) -> tuple[list[tuple[str, str]], list[str]]:
-    """The text of every file by its name, and what cannot be read, with the reason."""
-    sources: list[tuple[str, str]] = []
+class BadFile(OSError):  # noqa: N818  (bad input is no error of the program)
+    """A file that is no input: why, what would be right if that can be said, and a place, 1-based line and column."""
+
+    def __init__(self, path: Path, why: str, right: str = "", at: tuple[int, int] = (1, 1)) -> None:
+        """Keep all of it."""
+        super().__init__(errno.EINVAL, why, str(path))
+        self.why, self.right, self.at = why, right, at
+
+    def __str__(self) -> str:
+        """Print as `file:line:column: cannot be read: why; what would be right`."""
+        line, column = self.at
+        right = f"; {self.right}" if self.right else ""
+        return f"{file_name(self.filename)}:{line}:{column}: cannot be read: {self.why}{right}"
+
+
+def text(path: Path, most: int = MOST_TEXT) -> str:
+    """The text of a file in UTF-8, without a byte order mark and with its own line ends. Raises BadFile."""
+    found = data(path, most)
+    for mark, name in _MARKS.items():
+        if found.startswith(mark):
+            raise BadFile(path, f"it is {name} text", "save it as UTF-8")
+    found = found.removeprefix(b"\xef\xbb\xbf")
+    try:
+        whole = found.decode()
+    except UnicodeDecodeError as error:
+        at = place(found[: error.start].decode())
+        raise BadFile(path, f"it is not UTF-8: byte {found[error.start]:02X}H", "save it as UTF-8", at) from None
+    if "\0" in whole:
+        raise BadFile(path, "it is no text: byte 00H", "name a file of text", place(whole[: whole.index("\0")]))
+    return whole
+
+
+def place(before: str) -> tuple[int, int]:
+    """Line and column, 1-based, of what follows a text."""
+    return before.count("\n") + 1, len(before) - before.rfind("\n")
+
+
+def data(path: Path, most: int = MOST_BYTES) -> bytes:
+    """All bytes of a regular file. Raises BadFile, also for more than `most`."""
+    found = head(path, most + 1)
+    if len(found) > most:
+        size = f"{most >> 20} MiB" if most >> 20 else f"{most >> 10} KiB"
+        raise BadFile(path, f"it is larger than {size}")
+    return found
+
+
+def head(path: Path, count: int) -> bytes:
+    """The first bytes of a regular file; of anything else nothing is read. Raises BadFile."""
+    try:
+        _refuse_other(path, path.stat())
+        # without O_NONBLOCK a pipe that took the file's place meanwhile would wait for a writer
+        with os.fdopen(os.open(path, os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | _BINARY), "rb") as file:
+            _refuse_other(path, os.fstat(file.fileno()))
+            return file.read(count)
+    except BadFile:
+        raise
+    except OSError as error:
+        raise BadFile(path, error.strerror or str(error)) from None
+    except ValueError:  # a path with a NUL in it
+        raise BadFile(path, "it has no possible name") from None
+
+
+def _refuse_other(path: Path, state: os.stat_result) -> None:
+    kind = _KINDS.get(stat.S_IFMT(state.st_mode))
+    if kind is not None:
+        raise BadFile(path, f"it is {kind}", "name a file")
+
+
+class Output(FileIO):
+    """A file to write to, without a buffer."""
+
+    def add(self, data: bytes) -> None:
+        """All of it. Raises OSError."""
+        while data:
+            data = data[self.write(data) :]
+
+
+def opened(path: Path, *, new: bool = False, mode: int = 0o666) -> Output:
+    """A file to be written bit by bit, made if it is not there; `new`: it must not be there. Raises OSError.
+
+    What is there is kept. A link is followed to what is there; nothing is made through it.
+    """
+    made = _NO_LINK if new or not path.is_symlink() else 0
+    return Output(os.open(path, os.O_WRONLY | _BINARY | made | (os.O_EXCL if new else 0), mode), "wb")
+
+
+def put(path: Path, content: str | bytes, *, new: bool = False, sync: bool = True, mode: int = 0o666) -> None:
+    """Write a file whole, or leave what is there as it was. Raises OSError that names the file.
+
+    `new`: nothing may have its name. What it replaces gives it its mode, a link stays one, and a pipe or device is
+    written to. `sync`: on the disk itself when it counts; `mode`: of a new file.
+    """
+    given = content.encode() if isinstance(content, str) else content
+    try:
+        there = path.stat() if os.path.lexists(path) and not new else None
+        if there and not os.access(path, os.W_OK):
+            raise PermissionError(errno.EACCES, os.strerror(errno.EACCES))
+        if new:
+            _made(path, given, sync, mode)
+        elif there and not stat.S_ISREG(there.st_mode):
+            with opened(path) as file:
+                file.add(given)
+        else:
+            _replaced(Path(os.path.realpath(path)), given, sync, there, mode)
+    except OSError as error:
+        raise OSError(error.errno, error.strerror, str(path)) from None
+
+
+def _made(path: Path, given: bytes, sync: bool, mode: int) -> None:
+    with opened(path, new=True, mode=mode) as file:
+        try:
+            file.add(given)
+            if sync:
+                os.fsync(file.fileno())
+        except BaseException:
+            file.close()
+            path.unlink()
+            raise
+
+
+def _replaced(path: Path, given: bytes, sync: bool, there: os.stat_result | None, mode: int) -> None:
+    with beside(path, 0o600 if there else mode) as (file, part):
+        file.add(given)
+        if there and hasattr(os, "fchmod"):  # Windows has none
+            with suppress(OSError):
+                os.fchown(file.fileno(), there.st_uid, there.st_gid)
+            os.fchmod(file.fileno(), stat.S_IMODE(there.st_mode))
+        if sync:
+            os.fsync(file.fileno())
+        file.close()
+        part.replace(path)
+
+
+@contextmanager
+def beside(path: Path, mode: int = 0o666) -> Iterator[tuple[Output, Path]]:
+    """A new file in the folder of another, under a name that cannot be guessed; removed if it is left there.
+
+    Raises OSError.
+    """
+    part = path.with_name(f".{path.name[:40]}.{secrets.token_hex(8)}")
+    with opened(part, new=True, mode=mode) as file:
+        try:
+            yield file, part
+        finally:
+            file.close()
+            part.unlink(missing_ok=True)
+
+
+def sources(named: Sequence[Path]) -> tuple[list[tuple[str, str]], list[str]]:
+    """The text of every source by its name, and what cannot be read, with the reason."""
+    found: list[tuple[str, str]] = []
     bad: list[str] = []
     for path in dict.fromkeys(file for each in named for file in _files(each, bad)):
         try:
-            sources.append((file_name(path), _text(path)))
-        except (OSError, ValueError) as error:
-            bad.append(f"{file_name(path)}:1:1: {_reason(error)}")
-    return sources, bad
+            found.append((file_name(path), text(path)))
+        except BadFile as error:
+            bad.append(str(error))
+    return found, bad
 
 
 def _files(path: Path, bad: list[str]) -> list[Path]:
@@ -29,39 +192,11 @@ def _files(path: Path, bad: list[str]) -> list[Path]:
     found: list[Path] = []
 
     def told(error: OSError) -> None:
-        bad.append(f"{file_name(error.filename)}:1:1: {_reason(error)}")
+        bad.append(str(BadFile(Path(error.filename), error.strerror or str(error))))
 
     for folder, inner, names in os.walk(path, onerror=told):
         inner[:] = sorted(each for each in inner if not each.startswith("."))
         found += [Path(folder, each) for each in names if each.lower().endswith(".st")]
     if not found:
         bad.append(f"{file_name(path)}:1:1: expected .st files in this folder, found none")
-    pipes = [each for each in found if each.exists() and not each.is_file()]
-    bad += [f"{file_name(each)}:1:1: expected a file, found a pipe or device" for each in sorted(pipes)]
-    return sorted(each for each in found if each not in pipes)
-
-
-def _text(path: Path) -> str:
-    """The text of one file. Raises OSError, or ValueError saying why it is no source."""
-    if path.exists() and not path.is_file():
-        raise ValueError("expected a file, found a pipe or device")
-    with path.open("rb") as stream:
-        data = stream.read(MOST_BYTES + 1)
-    if len(data) > MOST_BYTES:
-        raise ValueError(f"expected at most {MOST_BYTES >> 20} MiB of text, found more")
-    if b"\0" in data:
-        raise ValueError("expected text, found a binary file")
-    try:
-        return data.decode("utf-8")
-    except UnicodeDecodeError as error:
-        line = data.count(b"\n", 0, error.start) + 1
-        raise ValueError(
-            f"expected UTF-8, found the byte {data[error.start]:02X}H in line {line}: save it as UTF-8"
-        ) from None
-
-
-def _reason(error: Exception) -> str:
-    """Why a file cannot be read, in words."""
-    if isinstance(error, OSError):
-        return f"cannot be read: {error.strerror or error}"
-    return str(error)
+    return sorted(found)

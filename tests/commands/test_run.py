@@ -75,8 +75,9 @@ REFUSED = [
     ("my.st --trace x --picture x", "--trace and --picture both name x; name two files"),
     ("my.st --scenario no.yaml", "no.yaml:1:1: this file cannot be read"),
     ("my.st --tcp :1 --simulated --scenario x", "--scenario is for drives that this run simulates"),
-    (".", ".:1:1: cannot be read: it is no file"),
-    ("my.st --script .", ".:1:1: cannot be read: it is no file"),
+    (".", ".:1:1: cannot be read: it is a directory; name a file"),
+    ("my.st --script .", ".:1:1: cannot be read: it is a directory; name a file"),
+    ("my.st --picture .", ".: Is a directory"),
     ("my.st --port no-such-port", "no-such-port: "),
     ("my.st --port x --format 9X9", "--format 9X9 is no format; write 8N1, 8E1, 8O1, 8N2 or 7E1"),
 ]  # fmt: skip
@@ -150,15 +151,15 @@ def test_a_program_that_fails_ends_with_1_and_says_where(program: Path) -> None:
     assert "stopped, and standstill read: Motor" in result.output
 
 
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="no disk is full here")
 def test_what_could_not_be_confirmed_is_printed_before_a_file_that_cannot_be_written(program: Path) -> None:
-    Path("folder").mkdir()
-    result = run(program, "--fast", "--for", "1s", "--simulate", "jscc@8", "--picture", "folder")
+    result = run(program, "--fast", "--for", "1s", "--simulate", "jscc@8", "--picture", "/dev/full")
     assert result.exit_code == 1
     assert result.output.splitlines()[-2:] == [
         "SIMULATED  NOT CONFIRMED: Motor (unit 7): no reply to the stop. Go and look",
-        "folder cannot be written: Is a directory",
+        "/dev/full cannot be written: No space left on device",
     ]
-    result = run(program, "--fast", "--for", "1s", "--picture", "folder")
+    result = run(program, "--fast", "--for", "1s", "--picture", "/dev/full")
     assert result.exit_code == 2
     assert "SIMULATED  stopped, and standstill read: Motor\n" in result.output
 

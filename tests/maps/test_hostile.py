@@ -86,7 +86,7 @@ def below(folder: Path) -> Path:
 
 
 NO_MAPS: dict[str, tuple[Callable[[Path], Path], str]] = {
-    "a directory": (lambda folder: folder, "is a directory; name a map file"),
+    "a directory": (lambda folder: folder, "it is a directory; name a file"),
     "a named pipe": (piped, "is a named pipe"),
     "a device": (lambda _: Path("/dev/zero"), "is a device"),
     "no file": (lambda folder: folder / "none.yaml", "cannot be read: No such file or directory"),
@@ -132,8 +132,8 @@ def test_every_step_of_reading_may_be_denied(where: str, tmp_path: Path, monkeyp
     def denied(*_: object, **__: object) -> None:
         raise PermissionError(13, "Permission denied")
 
-    owner: object = {"stat": Path, "open": os, "read": source}[where]
-    monkeypatch.setattr(owner, {"read": "open"}.get(where, where), denied, raising=False)
+    owner: object = {"stat": Path, "open": os, "read": os}[where]
+    monkeypatch.setattr(owner, {"read": "fdopen"}.get(where, where), denied, raising=False)
     assert "cannot be read: Permission denied" in refused(path)
 
 

@@ -1,7 +1,6 @@
 """Keeps what scans have seen, in a thread of its own: a full pipe or a slow disk never makes a scan wait."""
 
 import queue
-import stat
 import threading
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from itertools import chain, islice
@@ -11,6 +10,7 @@ from driveblocks.desk import record
 from driveblocks.desk.port import reason
 from driveblocks.desk.record import Timing, Trace
 from driveblocks.desk.words import spare
+from structured_text import files
 from structured_text.engines.engine import Value
 from structured_text.visible import file_name
 
@@ -90,21 +90,18 @@ class _Plain:
     """A file without a buffer, whose lock a thread that is stuck would keep at the end of the process."""
 
     def __init__(self, path: Path) -> None:
-        self._file = path.open("wb", buffering=0)
+        self._file = files.opened(path)
+        if path.is_file():
+            self._file.truncate(0)
 
     def write(self, text: str) -> int:
-        left = text.encode("utf-8", "replace")
-        while left:
-            left = left[self._file.write(left) :]
+        self._file.add(text.encode("utf-8", "replace"))
         return len(text)
 
 
 def trace(path: Path, names: Sequence[str], port: str, *, waits: bool) -> Recorder:
     """A trace as CSV, which takes the place of the last one with its first row. Raises OSError."""
-    spare(path, record.TRACE, "no run")
-    pipe = _is_pipe(path)
-    if not pipe:
-        path.open("ab").close()
+    pipe = _tried(path, record.TRACE)
 
     def keep(rows: Iterator[Row]) -> None:
         begun = [] if pipe else [*islice(rows, 1)]
@@ -118,21 +115,20 @@ def trace(path: Path, names: Sequence[str], port: str, *, waits: bool) -> Record
 
 def picture(path: Path, names: Sequence[str], port: str, *, waits: bool) -> Recorder:
     """A timing diagram as SVG. Raises OSError."""
-    spare(path, record.PICTURE, "no run")
-    path.touch()
+    _tried(path, record.PICTURE)
 
     def keep(rows: Iterator[Row]) -> None:
         made = Timing(names, port)
         for row in rows:
             made.add(*row)
-        _Plain(path).write(made.svg())
+        files.put(path, made.svg())
 
     return Recorder(file_name(path), keep, waits=waits)
 
 
-def _is_pipe(path: Path) -> bool:
-    """Whether opening it waits for a reader."""
-    try:
-        return stat.S_ISFIFO(path.stat().st_mode)
-    except OSError:
-        return False
+def _tried(path: Path, head: bytes) -> bool:
+    """Whether it is a pipe, which opening would wait for. Raises OSError for a file that cannot be written."""
+    spare(path, head, "no run")
+    if not path.is_fifo():
+        files.opened(path).close()
+    return path.is_fifo()

@@ -5,6 +5,7 @@ import re
 from pathlib import Path
 
 from driveblocks.desk import script
+from structured_text import files
 
 NO_PORT = "--port names no port; write one such as /dev/ttyUSB0 or COM3"
 LOOPBACK = ("", "127.0.0.1", "localhost")
@@ -36,8 +37,7 @@ def spare(path: Path, head: bytes, writer: str) -> None:
     """Raises OSError for a file that holds anything but what `writer` writes, which begins with the pattern `head`."""
     if not path.is_file():
         return
-    with path.open("rb") as file:
-        begin = file.read(HEAD)
+    begin = files.head(path, HEAD)
     if begin and not re.match(head, begin):
         why = f"there is a file that {writer} has written; name a new one, or move it away"
         raise OSError(errno.EEXIST, why, str(path))

@@ -1,6 +1,5 @@
 """The first hour with a drive: found and named by reads alone, over lines that differ, and kept whole at any moment."""
 
-import shutil
 import socket
 import sys
 import threading
@@ -28,6 +27,7 @@ from driveblocks.maps.polls import polls
 from driveblocks.maps.problem import MapError
 from driveblocks.modbus.frame import opened, seal
 from driveblocks.simulator.drive import SimulatedDrive
+from structured_text import files
 
 MAPS = {each.path.stem: each.drive for each in maps()}
 BASES = {stem: each.base or stem for stem, each in MAPS.items()}
@@ -589,11 +589,11 @@ def test_nothing_is_replaced_where_it_could_not_be_copied(
 ) -> None:
     before = path.read_bytes()
 
-    def full(_: Path, copy: Path) -> None:
-        copy.write_bytes(before[:10])
+    def full(file: files.Output, data: bytes) -> None:
+        file.write(data[:10])
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr(shutil, "copy", full)
+    monkeypatch.setattr(files.Output, "add", full)
     shelf = hour.Shelf(path, ABOUT, replaces=True)
     shelf.keep(replace(FULL, unit=4))
     assert (shelf.wrong, shelf.copy) == ("No space left on device", None)

@@ -8,6 +8,7 @@ from driveblocks.desk.run import source, wiring
 from driveblocks.desk.run.controller import Controller
 from driveblocks.desk.words import Refused
 from driveblocks.maps.collection import Source as Map
+from structured_text import files
 from structured_text.engines.engine import BuildError, ScanError
 
 
@@ -51,16 +52,12 @@ def probed(loaded: source.Loaded, scan_us: int, limit_us: int) -> Controller:
     return probe
 
 
-def text(path: Path, name: str) -> str:
-    """The text of a plain file: a pipe would be waited for. Raises Refused."""
+def text(path: Path) -> str:
+    """The text of a file. Raises Refused."""
     try:
-        if path.exists() and not path.is_file():
-            raise Refused(f"{name}:1:1: cannot be read: it is no file")
-        return path.read_text(encoding="utf-8-sig")
-    except OSError as error:
-        raise Refused(f"{name}:1:1: cannot be read: {error.strerror}") from None
-    except UnicodeDecodeError:
-        raise Refused(f"{name}:1:1: cannot be read: it is not UTF-8; save it as such") from None
+        return files.text(path)
+    except files.BadFile as error:
+        raise Refused(str(error)) from None
 
 
 class _Nowhere:

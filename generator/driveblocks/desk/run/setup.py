@@ -86,7 +86,7 @@ class Setup:
 
     def _load(self) -> source.Loaded:
         name = file_name(catalog.shown(self._path))
-        return probe.compiled(name, probe.text(self._path, name), self._maps, self._options.name)
+        return probe.compiled(name, probe.text(self._path), self._maps, self._options.name)
 
     def _line(self, pin: str) -> int:
         return self.probe.number(f"{self.probe.wiring.line}.{pin}") or USUAL.get(pin, 0)
@@ -220,7 +220,7 @@ class Setup:
             return []
         name = file_name(path)
         try:
-            return script.read(name, probe.text(path, name), controller.instance)
+            return script.read(name, probe.text(path), controller.instance)
         except script.ScriptError as error:
             raise Refused(str(error)) from None
 
@@ -268,6 +268,7 @@ class Setup:
 
     def _live(self, screen: Screen) -> Result:
         person = sys.stdin is not None and sys.stdin.isatty()
+        self._session.ending.alone = not person
         keyboard = None if self._options.demo else self._keyboard
         return live.run(self._session, screen, keyboard, self._for_us, end_of_input=self._options.real or person)
 
@@ -280,7 +281,7 @@ class Setup:
                 if session.view is not None:
                     screen.show(session.view)
             except (OSError, ValueError) as error:
-                session.ending.ask(f"the screen has failed: {error}")
+                session.ending.ask(f"the screen has failed: {error}", alone=True)
 
         session.steps.append(shown)
         result = session.run(self._for_us)

@@ -114,7 +114,7 @@ def _program(words: Words, watchdog: int, wrong: list[str]) -> tuple[str, str, l
                     wrong.append(f"{option} is for named drives; a program says so itself")
             path = Path(words.line[0])
             name = file_name(catalog.shown(path))
-            return name, probe.text(path, name), source.known(named)
+            return name, probe.text(path), source.known(named)
         if words.name:
             wrong.append("--program is for a file with several PROGRAMs")
         asked = words_of(words.line)

@@ -2,7 +2,6 @@
 
 import json
 import re
-import shutil
 from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import dataclass
@@ -13,7 +12,6 @@ from typing import Annotated, Any, Literal
 import yaml
 
 from driveblocks.desk.site.found import Found, Tens
-from driveblocks.desk.site.saved import part_of, put
 from driveblocks.desk.site.session import SKIPPABLE, STEPS
 from driveblocks.maps import nodes, source
 from driveblocks.maps.decode import build
@@ -21,6 +19,7 @@ from driveblocks.maps.form import Form
 from driveblocks.maps.model import Count, Entry, Id, Number, OpenScale, Str, Word, fact
 from driveblocks.maps.problem import Report
 from driveblocks.maps.shape import EntryOf
+from structured_text import files
 from structured_text.visible import file_name
 
 LABEL = re.compile(r"[A-Za-z][A-Za-z0-9]{0,23}")
@@ -148,7 +147,7 @@ def write(path: Path, about: About, found: Found) -> None:
     new = replaced(old, about.label, text(about, found))
     nodes.parse(new, report)
     report.raise_if_any()
-    put(path, new)
+    files.put(path, new)
 
 
 def copied(path: Path) -> Path:
@@ -156,20 +155,15 @@ def copied(path: Path) -> Path:
     for number in count(1):
         copy = path.with_name(f"{path.stem}.{number}{path.suffix}")
         with suppress(FileExistsError):
-            copy.touch(exist_ok=False)
-            break
-    try:
-        shutil.copy(path, copy)
-    except OSError:
-        copy.unlink()
-        raise
-    return copy
+            files.put(copy, files.data(path), new=True, mode=path.stat().st_mode & 0o777)
+            return copy
+    raise AssertionError
 
 
 def try_out(path: Path) -> None:
     """Raise OSError where a file could not be written."""
-    part_of(path).touch()
-    part_of(path).unlink()
+    with files.beside(path.resolve()):
+        pass
 
 
 def replaced(old: str, label: str, entry: str) -> str:

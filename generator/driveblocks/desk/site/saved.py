@@ -3,7 +3,6 @@
 import csv
 import io
 import re
-import shutil
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -13,6 +12,7 @@ from driveblocks.desk.words import Refused
 from driveblocks.maps.form import SPACES, address_text
 from driveblocks.maps.model import Drive
 from driveblocks.maps.revision import revision
+from structured_text import files
 from structured_text.visible import file_name
 
 COLUMNS = ("address", "id", "name", "word", "value", "unit", "default")
@@ -46,7 +46,7 @@ def write(path: Path, stem: str, drive: Drive, unit: int, words: Mapping[int, Wo
     text.write(f"# map: {stem}, revision {revision(drive):08X}\n# unit: {unit}\n")
     text.write(f"# read: {len(words)} of {len(every)}\n")
     left_out = [f"# {line}" for line in unread(drive)]
-    old = path.read_text(encoding="utf-8-sig", errors="replace").splitlines() if path.exists() else []
+    old = files.data(path).decode("utf-8-sig", "replace").splitlines() if path.exists() else []
     ours = {line for line in map(_line, old) if line in left_out or _OURS.fullmatch(line)}
     notes = (line for line in old if line.startswith(("#", '"#')) and _line(line) not in ours)
     text.writelines(f"{line}\n" for line in (*left_out, *notes))
@@ -57,7 +57,7 @@ def write(path: Path, stem: str, drive: Drive, unit: int, words: Mapping[int, Wo
             word = words[row.address]
             shown = value(row, word, known) if isinstance(word, int) else ("", "")
             table.writerow((address_text(row.address), row.id, row.name, word, *shown, row.default))
-    put(path, text.getvalue())
+    files.put(path, text.getvalue())
 
 
 def _line(line: str) -> str:
@@ -69,37 +69,13 @@ def _line(line: str) -> str:
     return line[: -len(more)] if more and not any(more) else line
 
 
-def put(path: Path, text: str) -> None:
-    """Put a file in the place of the one that is there, in one step. Raises OSError with the name of the file.
-
-    A link stays one, and who may read the file is kept.
-    """
-    part = part_of(path)
-    try:
-        with part.open("wb") as file:
-            if path.exists():
-                shutil.copymode(path, part)
-            file.write(text.encode())
-        part.replace(path.resolve())
-    except OSError as error:
-        raise OSError(error.errno, error.strerror, str(path)) from None
-    finally:
-        part.unlink(missing_ok=True)
-
-
-def part_of(path: Path) -> Path:
-    """Beside a file, where a link to it leads, what is to take its place."""
-    path = path.resolve()
-    return path.with_name(f".{path.name}.part")
-
-
 def read(path: Path) -> Saved:
     """A file that `write` has made. Raises Refused with everything that is wrong with it."""
     name = file_name(path)
     try:
-        lines = [_line(line) for line in path.read_text(encoding="utf-8-sig").splitlines()]
-    except (OSError, UnicodeDecodeError) as error:
-        raise Refused(f"{name}:1:1: cannot be read: {getattr(error, 'strerror', None) or 'it is not UTF-8'}") from None
+        lines = [_line(line) for line in files.text(path).splitlines()]
+    except files.BadFile as error:
+        raise Refused(str(error)) from None
     head = next((found for line in lines if (found := _HEAD.fullmatch(line))), None)
     unit = next((found for line in lines if (found := _UNIT.fullmatch(line))), None)
     if head is None or unit is None:
