@@ -16,7 +16,7 @@ from tests.shipped import drives, sisters
 from driveblocks.docs import timing
 from driveblocks.docs.page import Own, documents
 from driveblocks.maps.model import Drive
-from driveblocks.platforms import PLATFORMS
+from driveblocks.platforms import EXPORTS, PLATFORMS
 from driveblocks.platforms.port import first_motor
 from driveblocks.render.library import drive as library_of
 from driveblocks.render.library import generic
@@ -230,6 +230,19 @@ def test_every_place_that_a_user_reads_first_says_that_it_holds_no_brake() -> No
     assert lost == []
     for family in FAMILIES:
         assert BRAKE in page(family).partition("## Keypad and wiring")[2].partition("\n## ")[0]
+
+
+@pytest.mark.parametrize("platform", EXPORTS)
+def test_the_page_of_a_platform_is_short_and_says_what_a_turning_motor_does_when_the_plc_stops(platform: str) -> None:
+    text = (FOLDER.parent / platform / "README.md").read_text("utf-8")
+    prose = re.sub(r"```.*?```", "", text, flags=re.DOTALL).split()
+    assert sum(re.search(r"\w", word) is not None for word in prose) <= 1200
+    head = r"\| what happens \| the line is silent \| output of `HardStopOk` \| known from \|\n\|---\|---\|---\|---\|\n"
+    found = re.search(head + r"((?:\|.*\|\n)+)", text)
+    assert found
+    cells = [line.strip("|").split(" | ") for line in found[1].splitlines()]
+    assert len(cells) >= 4
+    assert all(len(row) == 4 and all(map(str.strip, row)) for row in cells)
 
 
 def test_the_page_of_the_contact_of_the_hard_stop_has_its_pins() -> None:

@@ -13,7 +13,7 @@ from driveblocks.maps import conduct, inventory, plan, trust
 from driveblocks.maps.form import address_text
 from driveblocks.maps.model import Absence, Drive, Erratum, Notice, Setting
 from driveblocks.maps.polls import Poll, polls, schedule, wire_ms
-from driveblocks.platforms import CANONICAL, EXPORTS, PLATFORMS
+from driveblocks.platforms import CANONICAL, EXPORTS, PLATFORMS, cost
 from driveblocks.platforms.ladder import diagram
 from driveblocks.platforms.part import Part
 from driveblocks.platforms.port import adapter, first_motor
@@ -139,10 +139,12 @@ def families(files: list[File], drives: list[Drive], checked: Checked, platforms
             "maker": drive.vendor.en,
             "title": drive.family.en,
             "able": inventory.abilities(drive)[0],
+            "turns_on": _turns_on(drive),
             "rung": trust.rung(drive),
             "reports": ", ".join(_reported(drive)),
             "shows": ", ".join(_shown(drive, "yes")),
             "unscaled": ", ".join(_shown(drive, UNSCALED)),
+            "data": cost.data(checked.blocks[f"{drive.prefix}_Drive".upper()]),
             "counts": {file: f"{one['functions']} + {one['blocks']}" for file, one in counted[drive.prefix].items()},
         }
         for drive in drives
@@ -155,6 +157,18 @@ def families(files: list[File], drives: list[Drive], checked: Checked, platforms
         files=names,
         wide=any("Chinese" in name for name in names),
     )
+
+
+def _turns_on(drive: Drive) -> str:
+    """How long a motor turns on without the line, by the drive's own watchdog."""
+    time = drive.watchdog.time if drive.watchdog else None
+    if time is None or time.setting is None:
+        return "not known" if drive.watchdog is None else "its watchdog, of unknown time"
+    row = next((one for one in drive.settings if one.id == time.setting), None)
+    if row is None or row.range is None:
+        return f"as `{time.setting}` says"
+    least, most = (number * time.milliseconds / 1000 for number in (row.range.min, row.range.max))
+    return f"{least.normalize():f} to {most.normalize():f} s, `{time.setting}`"
 
 
 def _wires(drive: Drive) -> dict[str, str]:

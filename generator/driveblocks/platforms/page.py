@@ -6,11 +6,12 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from driveblocks.platforms import cost
 from driveblocks.platforms.part import SHARED, Part, Shelf, Volume
 from driveblocks.render.environment import ABI, render
 from driveblocks.render.library import CHINESE, FRAMES, LINE32, METER, PARAMETERS
 from driveblocks.render.motor import SCAN_MS
-from structured_text.language.tree import ArraySpec, TypeDecl
+from structured_text.language.tree import ArraySpec, FunctionBlock, TypeDecl
 
 _FAMILY = re.compile(r"\bX(?=_|\b)")
 """What stands for the name of a family on a page of several."""
@@ -40,6 +41,10 @@ class Row:
     count: dict[str, int]
     structures: int
     """Types that are no arrays: those that TIA Portal shows."""
+    largest: tuple[str, int] | None
+    """Its block with most data, and the bytes; None where it has none, or none that is typed."""
+    code: int | None
+    """KiB; None where nobody measured it."""
 
 
 def page(platform: str, shelf: Shelf, volumes: Sequence[Volume], masters: bool = False) -> dict[str, str]:
@@ -57,6 +62,7 @@ def page(platform: str, shelf: Shelf, volumes: Sequence[Volume], masters: bool =
         "master": masters,
         "wide": any(language.suffix != "En" for language in shelf.languages),
         "abi": ABI,
+        "cost": cost,
     }
     folder = Path(__file__).parent / platform
     texts = {each.name[:-3]: render(f"{platform}/{each.name}", **values) for each in sorted(folder.glob("*.md.j2"))}
@@ -67,7 +73,9 @@ def _row(one: Volume) -> Row:
     specs = [part.element.spec for part in one.types if isinstance(part.element, TypeDecl)]
     structures = sum(not isinstance(spec, ArraySpec) for spec in specs)
     what = WHAT[one.extra] if one.base == SHARED else PORT[one.extra]
-    return Row(one.name, what, not one.extra, census(one.parts), structures)
+    most = cost.largest(part.element for part in one.blocks if isinstance(part.element, FunctionBlock))
+    code = cost.CODE_KIB[one.extra] if one.base == SHARED else None
+    return Row(one.name, what, not one.extra, census(one.parts), structures, most, code)
 
 
 def census(parts: Iterable[Part]) -> dict[str, int]:
