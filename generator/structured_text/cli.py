@@ -62,7 +62,7 @@ def _parser() -> argparse.ArgumentParser:
 
 def _sources(options: argparse.Namespace) -> list[Source]:
     """The sources that a command line names. Raises BadInputError with every file that cannot be read."""
-    read, bad = files.read(options.files)
+    read, bad = files.sources(options.files)
     if bad:
         raise BadInputError("\n".join(bad))
     if not read:

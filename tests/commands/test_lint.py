@@ -145,16 +145,16 @@ def test_a_folder_means_the_sources_in_it(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("content", "said"),
     [
-        (b"\x7fELF\x00\x01", "expected text, found a binary file"),
-        (b"(* ok *)\n(* Gr\xf6\xdfe *)", "expected UTF-8, found the byte F6H in line 2: save it as UTF-8"),
-        (b"(" * (8 * 1024 * 1024 + 1), "expected at most 8 MiB of text, found more"),
+        (b"\x7fELF\x00\x01", "1:5: cannot be read: it is no text: byte 00H; name a file of text"),
+        (b"(* ok *)\n(* Gr\xf6\xdfe *)", "2:6: cannot be read: it is not UTF-8: byte F6H; save it as UTF-8"),
+        (b"(" * (8 * 1024 * 1024 + 1), "1:1: cannot be read: it is larger than 8 MiB"),
     ],
 )
 def test_what_is_no_source_is_reported(tmp_path: Path, content: bytes, said: str) -> None:
     path = tmp_path / "odd.st"
     path.write_bytes(content)
     result = run(path)
-    assert (result.exit_code, result.output) == (2, f"{path}:1:1: {said}\n")
+    assert (result.exit_code, result.output) == (2, f"{path}:{said}\n")
 
 
 def test_all_files_that_cannot_be_read_are_reported(tmp_path: Path) -> None:

@@ -202,4 +202,4 @@ def test_bad_input_is_reported_for_both(tmp_path: Path) -> None:
     found = diff("missing.yaml", str(tmp_path / "empty"))
     assert found.exit_code == 2
     assert "missing.yaml:1:1: " in found.stderr
-    assert "empty: holds no .st file" in found.stderr
+    assert "empty:1:1: expected .st files in this folder, found none" in found.stderr

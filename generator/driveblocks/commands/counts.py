@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING
 
 import click
 
-from driveblocks.commands import FILE, refuse
+from driveblocks.commands import FILE, refuse, write
+from structured_text import files
 
 if TYPE_CHECKING:
     from driveblocks.maps.model import Drive
@@ -32,18 +33,19 @@ def run(pages: tuple[Path, ...], check: bool) -> None:
         if not pages:
             click.echo(inventory.table(maps, Path.cwd()), nl=False)
             return
-        current = {page: inventory.update(page.read_text(encoding="utf-8"), maps, page.parent) for page in pages}
+        old = {page: files.text(page).replace("\r\n", "\n") for page in pages}
+        current = {page: inventory.update(text, maps, page.parent) for page, text in old.items()}
     except MapError as error:
         refuse(str(error))
     except (OSError, ValueError) as error:
         refuse(f"cannot write the table: {error}")
-    stale = [page for page, text in current.items() if page.read_text(encoding="utf-8") != text]
+    stale = [page for page in old if old[page] != current[page]]
     if check and stale:
         names = " ".join(map(str, pages))
         click.echo(f"not current: {', '.join(map(str, stale))}; run: driveblocks counts {names}", err=True)
         sys.exit(1)
     for page in stale:
-        page.write_text(current[page], encoding="utf-8")
+        write(page, current[page])
 
 
 def _maps() -> "dict[Path, Drive]":

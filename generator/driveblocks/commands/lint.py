@@ -59,7 +59,7 @@ def run(  # noqa: PLR0913, PLR0917 - one parameter per option of the command lin
 
     Example: driveblocks lint --ignore case-without-else types.st blocks.st
     """
-    from structured_text.files import read
+    from structured_text import files as door
     from structured_text.findings import print_problems, print_rules
     from structured_text.language.lint import Selection, UnknownRuleError, lint_sources
 
@@ -75,7 +75,7 @@ def run(  # noqa: PLR0913, PLR0917 - one parameter per option of the command lin
     except UnknownRuleError as error:
         refuse(str(error))
     wanted = _targets(_split(targets))
-    sources, unread = read(files)
+    sources, unread = door.sources(files)
     library = _library(sources, maps)
     own = {path for path, _ in sources}
     found = lint_sources([*library, *sources], selection, wanted)

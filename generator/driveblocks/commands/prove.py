@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from driveblocks.commands import JUNIT, MAPS, refuse, sources
+from driveblocks.commands import JUNIT, MAPS, refuse, sources, write
 
 if TYPE_CHECKING:
     from driveblocks.prove.prover import Proved
@@ -45,10 +45,7 @@ def run(maps: tuple[str, ...], junit: Path | None, rules: bool) -> None:
     except (UnsupportedError, SourceError) as error:
         refuse(f"cannot be proved: {error}")
     if junit is not None:
-        try:
-            xml.write(report.written(done), junit)
-        except OSError as error:
-            refuse(f"{error.filename or junit}: cannot be written: {error.strerror}")
+        write(junit, xml.text(report.written(done)))
     bad = _say(done)
     sys.exit(1 if bad else 0)
 

@@ -7,6 +7,7 @@ import click
 
 from driveblocks.commands import FILE, refuse
 from driveblocks.maps import page, schema
+from structured_text import files
 
 _HEADS = {"schema.json": rb'\{\s*"\$schema": "[^"]*",\s*"title": "DriveBlocks', "keys.md": rb"# Every key of a map\s"}
 """How the files begin that this command writes."""
@@ -34,12 +35,12 @@ def run(folder: Path | None, check: bool) -> None:
     from driveblocks.desk.words import spare
 
     try:
-        files = _files(folder)
+        made = _files(folder)
         for name, head in _HEADS.items():
             spare(folder / name, head, "no `driveblocks schema`")
-        stale = [path for path, text in files.items() if _read(path) != text]
+        stale = [path for path, text in made.items() if _read(path) != text]
         for path in stale if not check else ():
-            path.write_text(files[path], encoding="utf-8")
+            files.put(path, made[path])
     except OSError as error:
         refuse(f"{error.filename or folder}: {error.strerror}")
     except ValueError as error:
@@ -51,12 +52,12 @@ def run(folder: Path | None, check: bool) -> None:
 
 
 def _files(folder: Path) -> dict[Path, str]:
-    files = {folder / "schema.json": schema.text(), folder / "keys.md": page.reference()}
+    made = {folder / "schema.json": schema.text(), folder / "keys.md": page.reference()}
     readme = folder / "README.md"
     if page.BEGIN in _read(readme):
-        files[readme] = page.update(_read(readme))
-    return files
+        made[readme] = page.update(_read(readme))
+    return made
 
 
 def _read(path: Path) -> str:
-    return path.read_text(encoding="utf-8") if path.exists() else ""
+    return files.text(path).replace("\r\n", "\n") if path.exists() else ""

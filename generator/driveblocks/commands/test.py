@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 
 import click
 
-from driveblocks.commands import FILE, JUNIT, MAPS, refuse, sources
+from driveblocks.commands import FILE, JUNIT, MAPS, refuse, sources, write
+from structured_text import files
 
 if TYPE_CHECKING:
     from driveblocks.maps.collection import Source
@@ -86,15 +87,10 @@ def run(  # noqa: PLR0913, PLR0917 - one parameter per option of the command lin
     some = [counting(each) for each in engines] if measured else engines
     programs = runner.run(made, some, time_limit, measured, jobs or min(4, os.cpu_count() or 1))
     done = Run([*programs.results, *(result(each, require_coverage or 0.0) for each in measured)], programs.seconds)
-    try:
-        if junit is not None:
-            xml.write(done, junit)
-        if picture is not None:
-            _draw(done, picture)
-    except FileExistsError as error:
-        refuse(f"{error.filename}: {error.strerror}")
-    except OSError as error:
-        refuse(f"{error.filename or junit}: cannot be written: {error.strerror}")
+    if junit is not None:
+        write(junit, xml.text(done))
+    if picture is not None:
+        _draw(done, picture)
     _print(programs, candidates, chosen)
     _unproved(read)
     _cover(measured)
@@ -113,7 +109,7 @@ def _keep(folder: Path, read: "list[Source]", both: "list[Language]") -> None:
         for name, text in programs(read, both).items():
             path = folder / name
             path.parent.mkdir(parents=True, exist_ok=True)
-            path.write_text(text, encoding="utf-8", newline="")
+            files.put(path, text, new=True, sync=False)
     except OSError as error:
         refuse(f"{error.filename or folder}: cannot be written: {error.strerror}")
 
@@ -166,18 +162,22 @@ def _unproved(sources: "list[Source]") -> None:
 
 
 def _draw(run: "Run", folder: Path) -> None:
-    """A picture per program and engine whose scene failed. Raises OSError."""
+    """A picture per program and engine whose scene failed. Ends with status 2 where one cannot be written."""
     from driveblocks.desk.words import spare
     from driveblocks.testing import record
 
     results = {folder / f"{result.program}-{result.engine}.svg": result for result in run.results if result.record}
-    for path in results:
-        spare(path, record.PICTURE, "no `driveblocks test`")
+    try:
+        for path in results:
+            spare(path, record.PICTURE, "no `driveblocks test`")
+        if results:
+            folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        refuse(f"{error.filename}: cannot be written: {error.strerror}")
     for path, result in results.items():
-        folder.mkdir(parents=True, exist_ok=True)
         failed = next(outcome for outcome in result.bad if outcome.scene)
         drawn = record.picture(f"{result.program} on {result.engine}: {failed.words}", result.record)
-        path.write_text(drawn, encoding="utf-8", newline="\n")
+        write(path, drawn)
 
 
 def _cover(measured: "list[Coverage]") -> None:

@@ -11,6 +11,7 @@ from driveblocks.maps.model import Drive
 from driveblocks.maps.revision import revision
 from driveblocks.render import library
 from driveblocks.render.text import languages
+from structured_text import files
 from structured_text.language.problems import SourceError
 
 
@@ -30,18 +31,18 @@ def version(name: str) -> Version:
         return Version(name, _folder(Path(name)))
     path = catalog.resolve(name)
     drive = load(path)
-    files = library.drive(path.stem, drive, languages(["en", "zh"], "utf-8"))
-    faces = interface.faces((file.path, file.text) for file in files)
+    made = library.drive(path.stem, drive, languages(["en", "zh"], "utf-8"))
+    faces = interface.faces((file.path, file.text) for file in made)
     return Version(f"{view.title(drive)}, map revision {revision(drive):08X}", faces, drive, path.stem)
 
 
 def _folder(folder: Path) -> dict[str, interface.Face]:
-    paths = sorted(folder.rglob("*.st"))
-    if not paths:
-        raise ValueError(f"{folder}: holds no .st file; name two maps, or two folders with blocks as text")
+    sources, bad = files.sources([folder])
+    if bad:
+        raise ValueError("\n".join([*bad, "name two maps, or two folders with blocks as text"]))
     try:
-        return interface.faces((str(path), path.read_text("utf-8-sig")) for path in paths)
-    except (SourceError, UnicodeDecodeError) as error:
+        return interface.faces(sources)
+    except SourceError as error:
         raise ValueError(str(error)) from error
 
 

@@ -7,6 +7,7 @@ from collections.abc import Iterable
 from pathlib import Path
 
 import driveblocks
+from structured_text import files
 
 _PREFIX = re.compile(rb"^prefix: *['\"]?([A-Za-z0-9]+)", re.MULTILINE)
 _HEAD = 8192
@@ -86,9 +87,8 @@ def chosen(names: Iterable[str] | None) -> list[Path]:
 def _names(path: Path) -> tuple[str, ...]:
     """Lower-case file stem and block prefix; a map that cannot be read keeps its stem."""
     try:
-        with path.open("rb") as file:
-            match = _PREFIX.search(file.read(_HEAD))
-    except OSError:
+        match = _PREFIX.search(files.head(path, _HEAD))
+    except files.BadFile:
         match = None
     stem = path.stem.lower()
     return (stem, match[1].decode("ascii").lower()) if match else (stem,)

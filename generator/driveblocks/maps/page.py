@@ -1,7 +1,7 @@
 """What the pages on the format take from elsewhere: the smallest map, and every key with its meaning and an example."""
 
 from collections.abc import Iterator
-from pathlib import Path
+from importlib.resources import files
 
 from driveblocks.maps.model import Drive
 from driveblocks.maps.shape import EntryOf, Key, ListOf, OneOf, keys_of
@@ -29,7 +29,7 @@ def update(text: str) -> str:
 
 def skeleton() -> str:
     """The smallest whole map, with comments that say what to replace."""
-    return Path(__file__).with_name("skeleton.yaml").read_text(encoding="utf-8")
+    return (files(__package__) / "skeleton.yaml").read_text(encoding="utf-8")
 
 
 def reference() -> str:

@@ -11,6 +11,8 @@ from functools import lru_cache
 from pathlib import Path, PurePosixPath
 from typing import Any
 
+from structured_text import files
+
 NAME = ".driveblocks.json"
 FORMAT = 1
 OWN = {".driveblocks.work", ".driveblocks.done", ".driveblocks.lock"}
@@ -57,7 +59,7 @@ def read(folder: Path) -> Manifest:
         return Manifest()
     try:
         if path.is_file():  # a pipe would be waited for
-            return _parsed(json.loads(path.read_text(encoding="utf-8")))
+            return _parsed(json.loads(files.data(path)))
     except MALFORMED:
         pass
     right = "restore it, or delete it: files that are as they would be written are then taken over again"
@@ -66,13 +68,13 @@ def read(folder: Path) -> Manifest:
 
 def _parsed(content: Any) -> Manifest:
     """Raises one of MALFORMED when it is anything but a manifest."""
-    files = dict(content["files"].items())
+    listed = dict(content["files"].items())
     maps, targets = words(content["maps"]), words(content.get("targets", [OLDEST]))
     if content["format"] != FORMAT:
         raise ValueError
-    words([*maps, *targets, *files.values()])
+    words([*maps, *targets, *listed.values()])
     return Manifest(
-        tuple(maps), tuple(targets), {name: files[name] for name in below([*files])}, tuple(below(content["folders"]))
+        tuple(maps), tuple(targets), {name: listed[name] for name in below([*listed])}, tuple(below(content["folders"]))
     )
 
 
@@ -126,7 +128,7 @@ def digest(path: Path) -> str | None:
         return None
     if not stat.S_ISREG(mode):
         return "link" if stat.S_ISLNK(mode) else "folder" if stat.S_ISDIR(mode) else "device"
-    return hashlib.sha256(path.read_bytes().replace(b"\r\n", b"\n")).hexdigest()
+    return hashlib.sha256(files.data(path).replace(b"\r\n", b"\n")).hexdigest()
 
 
 def compare(folder: Path, old: Manifest, texts: Mapping[str, str]) -> dict[str, State]:

@@ -3,6 +3,7 @@
 import posixpath
 import re
 from collections.abc import Iterator, Mapping, Sequence
+from io import BytesIO
 from pathlib import Path
 from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
@@ -12,6 +13,7 @@ from driveblocks.output.build import files
 from driveblocks.platforms import CANONICAL, TARGETS
 from driveblocks.render.library import FRAMES
 from driveblocks.render.text import Language, languages
+from structured_text import files as door
 
 BLOCKS, LICENCE = "blocks", "LICENSE"
 DATE = (1980, 1, 1, 0, 0, 0)
@@ -30,7 +32,7 @@ def release(root: Path, out: Path, sources: Sequence[Source], targets: Sequence[
     for target in targets:
         for name, some in {target: list(sources), **{f"{target}-{one.drive.prefix}": [one] for one in sources}}.items():
             path = out / f"driveblocks-{__version__}-{name}.zip"
-            _pack(path, contents(root, some, target, both))
+            door.put(path, _packed(contents(root, some, target, both)))
             made.append(path)
     return made
 
@@ -50,9 +52,13 @@ def contents(root: Path, sources: list[Source], target: str, both: list[Language
     for link in sorted(set(_links(leading))):
         beside = root / link
         if link.startswith("docs/") and beside.suffix == ".md" and beside.is_file():
-            own[link] = beside.read_text(encoding="utf-8")
+            own[link] = _page(beside)
     pages = {name: _unlinked(name, text, own) for name, text in own.items() if name.endswith(".md")}
-    return own | pages | {LICENCE: (root / LICENCE).read_text(encoding="utf-8")}
+    return own | pages | {LICENCE: _page(root / LICENCE)}
+
+
+def _page(path: Path) -> str:
+    return door.text(path).replace("\r\n", "\n")
 
 
 def _links(own: Mapping[str, str]) -> Iterator[str]:
@@ -75,10 +81,12 @@ def _unlinked(page: str, text: str, there: Mapping[str, str]) -> str:
     return _LINK.sub(kept, text)
 
 
-def _pack(path: Path, texts: Mapping[str, str]) -> None:
-    """Write an archive whose bytes depend on names and contents alone."""
-    with ZipFile(path, "w") as archive:
+def _packed(texts: Mapping[str, str]) -> bytes:
+    """An archive whose bytes depend on names and contents alone."""
+    with BytesIO() as made, ZipFile(made, "w") as archive:
         for name in sorted(texts):
             entry = ZipInfo(f"driveblocks/{name}", DATE)
             entry.create_system, entry.external_attr = 3, 0o100644 << 16
             archive.writestr(entry, texts[name].encode(), ZIP_DEFLATED, 9)
+        archive.close()
+        return made.getvalue()

@@ -16,6 +16,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from driveblocks.output.manifest import MALFORMED, Refused, barrier_to, below, digest, parents, text_digest, words
+from structured_text import files
 
 WORK, DONE, LOCK = ".driveblocks.work", ".driveblocks.done", ".driveblocks.lock"
 JOURNAL, NEW, OLD = "journal.json", "new", "old"
@@ -51,26 +52,26 @@ def locked(folder: Path) -> Iterator[None]:
                 path.rmdir()
 
 
-def _taken(folder: Path) -> int:
-    """A locked descriptor of the lock file, and of no removed one of the same name. Raises Refused and OSError."""
+def _taken(folder: Path) -> files.Output:
+    """The locked lock file, and of no removed one of the same name. Raises Refused and OSError."""
     path = folder / LOCK
     while True:
         folder.mkdir(parents=True, exist_ok=True)
         _refuse_other(path, stat.S_ISREG, "the lock file of a build")
-        file = os.open(path, os.O_RDWR | os.O_CREAT | getattr(os, "O_NOFOLLOW", 0), 0o666)
+        file = files.opened(path)
         try:
-            _lock(file)
-            if os.path.samestat(os.fstat(file), path.lstat()):
+            _lock(file.fileno())
+            if os.path.samestat(os.fstat(file.fileno()), path.lstat()):
                 return file
         except FileNotFoundError:
             pass  # its last owner has removed it meanwhile
         except OSError as error:
-            os.close(file)
+            file.close()
             if error.errno in {errno.EACCES, errno.EAGAIN, errno.EDEADLK}:
                 raise Refused(f"{folder}: another build is at work there; build again when it has ended") from None
             error.filename = error.filename or str(path)
             raise
-        os.close(file)
+        file.close()
 
 
 def _refuse_other(path: Path, kind: Callable[[int], bool], wanted: str) -> None:
@@ -80,13 +81,13 @@ def _refuse_other(path: Path, kind: Callable[[int], bool], wanted: str) -> None:
             raise Refused(f"{path}: in the place of {wanted}, and is none; delete or move it, then build again")
 
 
-def _release(path: Path, file: int) -> None:
+def _release(path: Path, file: files.Output) -> None:
     """Remove the lock file while it is held; where an open file cannot be removed, right after."""
     try:
         with contextlib.suppress(OSError):
             path.unlink()
     finally:
-        os.close(file)
+        file.close()
     if sys.platform == "win32":
         with contextlib.suppress(OSError):
             path.unlink()
@@ -140,12 +141,12 @@ def _staged(folder: Path, texts: Mapping[str, str | None]) -> _Journal:
     _make_folders(work / NEW, new, folder)
     for name, text in new.items():
         _put(work / NEW / name, text, folder / name, sync=there[name] is not None)
-    files = {name: (there[name], text_digest(new[name]) if name in new else None) for name in texts}
+    changed = {name: (there[name], text_digest(new[name]) if name in new else None) for name in texts}
     folders = [name for name in parents(new) if not (folder / name).is_dir()]
     unfinished = work / f"{JOURNAL}.new"
-    _put(unfinished, json.dumps({"files": files, "folders": folders}), work / JOURNAL, sync=any(there.values()))
+    _put(unfinished, json.dumps({"files": changed, "folders": folders}), work / JOURNAL, sync=any(there.values()))
     _move(unfinished, work / JOURNAL, work / JOURNAL)
-    return _Journal(files, folders)
+    return _Journal(changed, folders)
 
 
 @contextlib.contextmanager
@@ -163,11 +164,8 @@ def _put(path: Path, text: str, target: Path, *, sync: bool) -> None:
 
     What replaces something else must be on the disk itself by then; to wait for that takes seconds for a whole library.
     """
-    with _about(target), path.open("wb") as file:
-        file.write(text.encode("utf-8"))
-        file.flush()
-        if sync:
-            os.fsync(file.fileno())
+    with _about(target):
+        files.put(path, text, new=True, sync=sync)
 
 
 def _move(source: Path, target: Path, known: Path) -> None:
@@ -212,10 +210,10 @@ def recover(folder: Path) -> bool:
 def _journal(work: Path) -> _Journal:
     """What a build was about to do. Raises Refused."""
     try:
-        content = json.loads((work / JOURNAL).read_text(encoding="utf-8"))
-        files = {name: (before, after) for name, (before, after) in content["files"].items()}
-        words([text for pair in files.values() for text in pair if text is not None])
-        return _Journal({name: files[name] for name in below([*files])}, below(content["folders"]))
+        content = json.loads(files.data(work / JOURNAL))
+        listed = {name: (before, after) for name, (before, after) in content["files"].items()}
+        words([text for pair in listed.values() for text in pair if text is not None])
+        return _Journal({name: listed[name] for name in below([*listed])}, below(content["folders"]))
     except MALFORMED:
         right = f"copy back what you miss from {work / OLD}, then delete {work}"
         raise Refused(f"{work / JOURNAL}: not the journal of a build; {right}") from None

@@ -3,17 +3,11 @@
 A suite per program and engine; a case per scene, and per check of what is no scene.
 """
 
-from pathlib import Path
 from xml.etree import ElementTree
 
 from driveblocks.testing.outcome import ERROR, FAILED, PASSED, Outcome, Result, Run
 from driveblocks.testing.record import table
 from structured_text.visible import visible
-
-
-def write(run: Run, path: Path) -> None:
-    """Write the file. Raises OSError."""
-    path.write_text(text(run), encoding="utf-8", newline="\n")
 
 
 def text(run: Run) -> str:

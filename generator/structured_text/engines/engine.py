@@ -5,6 +5,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Protocol
 
+from structured_text import files
+
 # A value as Python sees it: BOOL is bool; bit strings and integers are int; REAL and LREAL are float;
 # STRING is bytes; TIME is int nanoseconds; an array is a list; a structure is a dict in declaration order.
 Value = bool | int | float | bytes | list["Value"] | dict[str, "Value"]
@@ -19,8 +21,8 @@ class Source:
 
     @classmethod
     def read(cls, path: Path) -> "Source":
-        """Read a UTF-8 file. Raises OSError, UnicodeDecodeError."""
-        return cls(str(path), path.read_text(encoding="utf-8"))
+        """Read a UTF-8 file. Raises BadFile."""
+        return cls(str(path), files.text(path))
 
 
 @dataclass(frozen=True)

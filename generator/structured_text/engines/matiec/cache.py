@@ -2,21 +2,23 @@
 
 An entry is a folder that appears whole by a rename, with a seal that holds the digest of each of its files: what is
 half-written, cut short by a full disk or touched by somebody is built again and never used. What is in it runs as the
-user, so a folder that others own or may write to is refused.
+user, so no step of the way to it may be another user's, or one that others may write to.
 """
 
 import contextlib
 import hashlib
 import json
 import os
+import secrets
 import shutil
+import stat
 import sys
-import tempfile
 import time
 from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 
 from structured_text.engines.engine import EngineError
+from structured_text.files import beside, data, opened, put
 
 SEAL = "seal.json"
 LIMIT_BYTES = 256 << 20
@@ -50,7 +52,7 @@ class Cache:
         """
         final = self.root / "entries" / key[:2] / key
         try:
-            self._folder()
+            self._folder("entries", key[:2])
             if self._is_good(final):
                 return final
             with self._locked(key):
@@ -64,8 +66,8 @@ class Cache:
     def check(self) -> str | None:
         """Say why the cache cannot be written; None if it can."""
         try:
-            with tempfile.TemporaryFile(dir=self._folder()) as file:
-                file.write(b"\0" * 4096)
+            with beside(self._folder() / "check") as (file, _):
+                file.add(b"\0" * 4096)
         except OSError as error:
             return str(self._complaint(error))
         except EngineError as error:
@@ -73,31 +75,29 @@ class Cache:
         return None
 
     def _folder(self, *names: str) -> Path:
-        """The root, or a folder below it; made for the user alone. Raises EngineError where others own or may write it.
+        """The root, or a folder below it; made for the user alone. Raises EngineError where a step is not.
 
-        A folder that was there keeps its mode: it may serve other purposes as well.
+        A folder that was there keeps its mode: it may serve other purposes as well. The root may be a link.
         """
-        folder = self.root
-        folder.parent.mkdir(parents=True, exist_ok=True)
-        folder.mkdir(mode=0o700, exist_ok=True)
-        if sys.platform != "win32":
-            self._refuse_foreign(folder.stat())
+        folder, lexical = self.root, self.root.absolute()
+        for step in (*reversed(lexical.parents), lexical):
+            step.mkdir(mode=0o700, exist_ok=True)
+        real = Path(os.path.realpath(lexical))
+        for step in {lexical, *lexical.parents, *real.parents}:
+            self._refuse(step, _foreign(step, above=True))
+        self._refuse(real, _foreign(real))
         for name in names:
             folder /= name
             folder.mkdir(mode=0o700, exist_ok=True)
+            self._refuse(folder, _foreign(folder))
         return folder
 
-    def _refuse_foreign(self, state: os.stat_result) -> None:
-        """What somebody else can put into the cache would run as the user."""
-        if state.st_uid != os.geteuid():
-            wrong = f"belongs to another user (number {state.st_uid})"
-        elif state.st_mode & 0o022:
-            wrong = f"can be written by others (mode {state.st_mode & 0o777:o})"
-        else:
-            return
-        raise EngineError(
-            f"the build cache {self.root} {wrong}; make it yours (mode 700) or name another folder in DRIVEBLOCKS_CACHE"
-        )
+    def _refuse(self, step: Path, wrong: str) -> None:
+        if wrong:
+            raise EngineError(
+                f"the build cache {self.root} cannot be used: {step} {wrong}; make it yours (mode 700) or name another"
+                " folder in DRIVEBLOCKS_CACHE"
+            )
 
     def _complaint(self, error: OSError) -> EngineError:
         return EngineError(
@@ -106,12 +106,16 @@ class Cache:
         )
 
     def _make(self, final: Path, make: Callable[[Path], None]) -> None:
+        with contextlib.suppress(OSError):
+            final.unlink()  # a link in its place
         shutil.rmtree(final, ignore_errors=True)
-        self._folder("entries", final.parent.name)
-        folder = Path(tempfile.mkdtemp(dir=self._folder("making")))
+        folder = self._folder("making") / secrets.token_hex(8)
+        folder.mkdir(mode=0o700)
         try:
             make(folder)
-            (folder / SEAL).write_text(json.dumps(_digests(folder)), encoding="utf-8")
+            put(folder / SEAL, json.dumps(_digests(folder)), new=True, sync=False)
+            for file in folder.iterdir():
+                file.chmod(0o600)
             folder.rename(final)
         except OSError:
             if not self._is_good(final):  # else another process was quicker, and its entry is as good
@@ -123,8 +127,9 @@ class Cache:
         """Whether an entry is there and is what it was when it was made; a good one counts as used now."""
         seal = folder / SEAL
         try:
-            expected = json.loads(seal.read_text(encoding="utf-8"))
-            good = bool(expected) and _digests(folder) == expected
+            foreign = any(_foreign(each) for each in (folder, *folder.iterdir()))
+            expected = json.loads(data(seal))
+            good = not foreign and bool(expected) and _digests(folder) == expected
             os.utime(seal)
         except (OSError, ValueError):
             return False
@@ -133,7 +138,7 @@ class Cache:
     @contextlib.contextmanager
     def _locked(self, key: str) -> Iterator[None]:
         """Keep other processes from building the same; without locks they would only waste work."""
-        with (self._folder("locks") / key[:2]).open("wb") as file:
+        with opened(self._folder("locks") / key[:2]) as file:
             with contextlib.suppress(OSError):
                 _lock(file.fileno())
             yield
@@ -153,9 +158,23 @@ class Cache:
                 excess -= size
 
 
+def _foreign(path: Path, *, above: bool = False) -> str:
+    """Why what is there may be somebody else's; `above` the cache, root may own it, and groups are trusted."""
+    state = path.lstat()
+    link, mode = stat.S_ISLNK(state.st_mode), stat.S_IMODE(state.st_mode)
+    if link and not above:
+        return "is a link"
+    if sys.platform == "win32":
+        return ""
+    if state.st_uid != os.geteuid() and not (above and state.st_uid == 0):
+        return f"belongs to another user (number {state.st_uid})"
+    open_ = mode & 0o002 and not mode & stat.S_ISVTX if above else mode & 0o022
+    return f"can be written by others (mode {mode & 0o777:o})" if open_ and not link else ""
+
+
 def _digests(folder: Path) -> dict[str, str]:
     files = (file for file in sorted(folder.iterdir()) if file.is_file() and file.name != SEAL)
-    return {file.name: hashlib.sha256(file.read_bytes()).hexdigest() for file in files}
+    return {file.name: hashlib.sha256(data(file)).hexdigest() for file in files}
 
 
 def _used(folder: Path) -> float:

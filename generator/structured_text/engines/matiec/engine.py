@@ -30,6 +30,7 @@ from structured_text.engines.matiec.library import MatiecLibrary
 from structured_text.engines.matiec.plan import Expressions, Measure, Planner
 from structured_text.engines.matiec.text import Listing
 from structured_text.engines.matiec.translate import Translator
+from structured_text.files import data, put
 
 LIBRARY = "library.so"
 WARNINGS = "warnings.json"
@@ -81,7 +82,7 @@ class MatiecEngine:
                 raise EngineError(f"the disk of the build cache {folder} is full") from error
             raise
         rows = [[each.path, each.line, each.column, each.text] for each in warnings]
-        (folder / WARNINGS).write_text(json.dumps(rows), encoding="utf-8")
+        put(folder / WARNINGS, json.dumps(rows), sync=False)
 
     def _compile(self, listing: Listing, folder: Path) -> list[Message]:
         c_sources = _CSources.read(folder, self.installation, listing)
@@ -90,22 +91,22 @@ class MatiecEngine:
         configuration = c_sources.configuration
         functions = c_sources.header.functions.values()
         text = runtime.unit(planner.plan.blocks, functions, expressions.found, configuration, read_locations(folder))
-        (folder / EXPRESSIONS).write_text(json.dumps(list(expressions.found)), encoding="utf-8")
+        put(folder / EXPRESSIONS, json.dumps(list(expressions.found)), sync=False)
         lines, counters = self._move_pous(folder, listing, c_sources.declared)
         if counters is not None:
             text = f"#define DBK_COVERAGE {max(len(counters.lines), 1)}\n{text}"
-        (folder / runtime.UNIT).write_text(text, encoding="utf-8")
+        put(folder / runtime.UNIT, text, sync=False)
         files = [runtime.UNIT, *(configuration.files if configuration else ())]
         return self.compiler.compile(Job(folder, files, LIBRARY, self.installation.headers, self.flags, listing, lines))
 
     def _move_pous(self, folder: Path, listing: Listing, declared: Declarations) -> tuple[LineTable, Counters | None]:
         old = folder / "POUS.c"
-        c_text = old.read_text(encoding="utf-8", errors="replace")
+        c_text = data(old).decode(errors="replace")
         counters = Counters(listing, directives(c_text)) if self.flags.coverage else None
         starts = {name: unit.line for name, unit in declared.units.items()}
         text, lines = take_lines(c_text, starts, counters.mark if counters else None)
-        (folder / runtime.POUS_MOVED).write_text(text, encoding="utf-8")
-        old.write_text("", encoding="utf-8")
+        put(folder / runtime.POUS_MOVED, text, sync=False)
+        put(old, "", sync=False)
         return lines, counters
 
     def _load(self, listing: Listing, folder: Path) -> Built:
@@ -113,13 +114,13 @@ class MatiecEngine:
         binary = Binary(folder / LIBRARY)
         if not self.flags.sanitized:
             binary.attach(load_guard(self.compiler, self.cache))
-        expressions = json.loads((folder / EXPRESSIONS).read_text(encoding="utf-8"))
+        expressions = json.loads(data(folder / EXPRESSIONS))
         sizes = dict(zip(expressions, binary.sizes(len(expressions)), strict=False))
         plan = c_sources.plan(sizes.__getitem__).plan
-        rows = json.loads((folder / WARNINGS).read_text(encoding="utf-8"))
+        rows = json.loads(data(folder / WARNINGS))
         warnings = tuple(listing.locate(Message(path, line, column, text) for path, line, column, text in rows))
         places = {name: listing.place(unit.line) for name, unit in c_sources.declared.units.items()}
-        moved = (folder / runtime.POUS_MOVED).read_text("utf-8")
+        moved = data(folder / runtime.POUS_MOVED).decode()
         counters = Counters(listing, counted(moved)) if self.flags.coverage else None
         return Built(folder, binary, plan, c_sources.declared, c_sources.configuration, warnings, places, counters)
 
@@ -136,7 +137,7 @@ class _CSources:
     @classmethod
     def read(cls, folder: Path, installation: Installation, listing: Listing) -> "_CSources":
         """Read the files. Raises EngineError if they are not what iec2c writes."""
-        text = (folder / "POUS.h").read_text(encoding="utf-8", errors="replace")
+        text = data(folder / "POUS.h").decode(errors="replace")
         if not text.rstrip().endswith("#endif //__POUS_H"):
             raise EngineError(f"{installation.iec2c} wrote a POUS.h that is cut short or unknown")
         return cls(read_header(text), installation, read_configuration(folder), read_declarations(listing.text))

@@ -10,6 +10,7 @@ from pathlib import Path
 from structured_text.engines.engine import EngineError
 from structured_text.engines.matiec.cache import Cache
 from structured_text.engines.matiec.ccompiler import CCompiler, Flags, Job
+from structured_text.files import put
 
 # A scan takes microseconds; one that takes so much processor time will never end.
 SCAN_SECONDS = 10.0
@@ -41,7 +42,7 @@ def _load(compiler: CCompiler, cache: Cache) -> ctypes.PyDLL:
     parts = json.dumps([_TEXT, *compiler.command, compiler.version, *Flags().arguments])
 
     def make(folder: Path) -> None:
-        (folder / _SOURCE).write_text(_TEXT, encoding="utf-8")
+        put(folder / _SOURCE, _TEXT, new=True, sync=False)
         compiler.compile(Job(folder, [_SOURCE], _LIBRARY, folder, Flags()))
 
     folder = cache.entry(hashlib.sha256(parts.encode()).hexdigest(), make)

@@ -11,6 +11,8 @@ from enum import Enum
 from functools import lru_cache
 from pathlib import Path
 
+from structured_text.files import data
+
 
 @dataclass(frozen=True)
 class ArrayType:
@@ -157,7 +159,7 @@ def read_standard_blocks(folder: Path) -> dict[str, Block]:
     """The blocks that matiec's own headers define, by name. Raises OSError."""
     found: dict[str, Block] = {}
     for file in sorted(folder.glob("*FB.h")):
-        for name, block in read_header(file.read_text(encoding="utf-8", errors="replace")).blocks.items():
+        for name, block in read_header(data(file).decode(errors="replace")).blocks.items():
             found.setdefault(name, block)
     return found
 
@@ -191,7 +193,7 @@ _LOCATION = re.compile(r"__LOCATED_VAR\((\w+),(\w+),")
 
 def read_configuration(folder: Path) -> ConfigurationC | None:
     """Read the files of the CONFIGURATION, if iec2c wrote any. Raises OSError."""
-    texts = {file.name: file.read_text(encoding="utf-8", errors="replace") for file in sorted(folder.glob("*.c"))}
+    texts = {file.name: data(file).decode(errors="replace") for file in sorted(folder.glob("*.c"))}
     main = next((name for name, text in texts.items() if "\n// CONFIGURATION " in text), None)
     if main is None:
         return None
@@ -216,5 +218,5 @@ def _add_globals(configuration: ConfigurationC, text: str) -> None:
 def read_locations(folder: Path) -> dict[str, str]:
     """C type by C name of every place that an AT names. Raises OSError."""
     file = folder / "LOCATED_VARIABLES.h"
-    text = file.read_text(encoding="utf-8", errors="replace") if file.is_file() else ""
+    text = data(file).decode(errors="replace") if file.is_file() else ""
     return {name: type_name for type_name, name in _LOCATION.findall(text)}

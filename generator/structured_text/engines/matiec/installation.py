@@ -15,6 +15,8 @@ from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 
+from structured_text import files
+
 NAMES = ("iec2c.exe", "iec2c") if sys.platform == "win32" else ("iec2c", "iec2c_mac")
 
 # Below a folder that a user may point at, where iec2c can be.
@@ -42,9 +44,9 @@ class Installation:
     def digest(self) -> str:
         """SHA-256 over iec2c, the ST declarations and the C headers. Raises OSError if one is gone."""
         total = hashlib.sha256()
-        files = [self.iec2c, *sorted(self.library.glob("*.txt")), *sorted(self.headers.glob("*.h"))]
-        for file in files:
-            total.update(f"{file.name}\n".encode() + hashlib.sha256(file.read_bytes()).digest())
+        parts = [self.iec2c, *sorted(self.library.glob("*.txt")), *sorted(self.headers.glob("*.h"))]
+        for file in parts:
+            total.update(f"{file.name}\n".encode() + hashlib.sha256(files.data(file)).digest())
         return total.hexdigest()
 
 

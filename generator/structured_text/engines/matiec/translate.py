@@ -10,6 +10,7 @@ from structured_text.engines.matiec.errors import CompilerCrashError, RefusedWit
 from structured_text.engines.matiec.installation import Installation
 from structured_text.engines.matiec.process import Outcome, run
 from structured_text.engines.matiec.text import Listing
+from structured_text.files import data, put
 
 # -f whole token positions, -p forward references, -i blocks without parameters; -O l puts #line into the C.
 _OPTIONS = ("-f", "-p", "-i", "-O", "l")
@@ -46,7 +47,7 @@ class Translator:
         Raises BuildError with iec2c's messages on our files; CompilerCrashError, CompilerTimeoutError; EngineError
         if it cannot run, says what nobody understands or writes no C.
         """
-        (directory / listing.NAME).write_text(listing.text, encoding="utf-8")
+        put(directory / listing.NAME, listing.text, sync=False)
         program = str(self.installation.iec2c)
         command = [program, *_OPTIONS, "-I", str(self.installation.library), "-T", ".", listing.NAME]
         outcome = run(command, directory, self.seconds)
@@ -77,7 +78,7 @@ class Translator:
 
     def _library_line(self, message: Message) -> str:
         try:
-            text = (self.installation.library / Path(message.path).name).read_text(encoding="utf-8", errors="replace")
+            text = data(self.installation.library / Path(message.path).name).decode(errors="replace")
         except OSError:
             return ""
         return text.splitlines()[message.line - 1] if message.line <= text.count("\n") else ""
