@@ -19,5 +19,5 @@ def doubt(factor: Decimal, unit: Unit, bits: int) -> tuple[str, str] | None:
     if factor <= most and (factor >= least or bits > 16):
         return None
     inverse = 1 / factor
-    other = f"; for {factor} counts per {unit} write {inverse.normalize():f}" if factor > most else ""
-    return f"{factor} {unit} per count is no factor of a drive", f"{least:f} to {most} {unit} per count are{other}"
+    other = f"; for {factor:f} counts per {unit} write {inverse.normalize():f}" if factor > most else ""
+    return f"{factor:f} {unit} per count is no factor of a drive", f"{least:f} to {most} {unit} per count are{other}"

@@ -179,8 +179,8 @@ def _scale(row: Register, report: Report) -> None:
             report.add(
                 one.place("factor"), f"factor {one.factor} is not positive", "write units per count, such as 0.01"
             )
-        elif row.unit and (wrong := doubt(one.factor, row.unit, 16 * row.size)):
-            report.add(one.place("factor"), *wrong)
+        elif row.unit and (doubted := doubt(one.factor, row.unit, 16 * row.size)):
+            report.add(one.place("factor"), *doubted)
     if row.scale.otherwise:
         _otherwise(row, row.scale, report)
     if row.values or row.bits:
