@@ -9,8 +9,10 @@ import os
 import sys
 from collections.abc import Iterable
 from contextlib import suppress
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, TextIO
 
+from structured_text import files
 from structured_text.visible import visible
 
 if TYPE_CHECKING:  # what prints no table does not load rich
@@ -59,7 +61,7 @@ def use_safe_utf8() -> None:
 def give_up_output() -> None:
     """Drop what could not be written to standard output, or Python would complain of it once more at its end."""
     with suppress(OSError, ValueError):
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        os.dup2(files.opened(Path(os.devnull)).fileno(), sys.stdout.fileno())
 
 
 def terminal() -> "Console":

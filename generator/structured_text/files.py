@@ -21,8 +21,8 @@ _KINDS = {
     stat.S_IFDIR: "a directory", stat.S_IFIFO: "a named pipe", stat.S_IFSOCK: "a socket",
     stat.S_IFCHR: "a device", stat.S_IFBLK: "a device",
 }  # fmt: skip
-_BINARY = getattr(os, "O_BINARY", 0)
-_NO_LINK = os.O_CREAT | getattr(os, "O_NOFOLLOW", 0)  # Windows has no O_NOFOLLOW
+_BINARY, _AT_ONCE = getattr(os, "O_BINARY", 0), getattr(os, "O_NONBLOCK", 0)
+_NO_LINK = os.O_CREAT | getattr(os, "O_NOFOLLOW", 0)  # Windows has none
 
 
 class BadFile(OSError):  # noqa: N818  (bad input is no error of the program)
@@ -75,8 +75,8 @@ def head(path: Path, count: int) -> bytes:
     """The first bytes of a regular file; of anything else nothing is read. Raises BadFile."""
     try:
         _refuse_other(path, path.stat())
-        # without O_NONBLOCK a pipe that took the file's place meanwhile would wait for a writer
-        with os.fdopen(os.open(path, os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | _BINARY), "rb") as file:
+        # otherwise a pipe that took the file's place meanwhile would wait for a writer
+        with os.fdopen(os.open(path, os.O_RDONLY | _AT_ONCE | _BINARY), "rb") as file:
             _refuse_other(path, os.fstat(file.fileno()))
             return file.read(count)
     except BadFile:
@@ -102,20 +102,25 @@ class Output(FileIO):
             data = data[self.write(data) :]
 
 
-def opened(path: Path, *, new: bool = False, mode: int = 0o666) -> Output:
+def opened(path: Path, *, new: bool = False, waits: bool = True, mode: int = 0o666) -> Output:
     """A file to be written bit by bit, made if it is not there; `new`: it must not be there. Raises OSError.
 
-    What is there is kept. A link is followed to what is there; nothing is made through it.
+    What is there is kept. A link is followed to what is there; nothing is made through it. `waits`: for the reader of a
+    pipe.
     """
     made = _NO_LINK if new or not path.is_symlink() else 0
-    return Output(os.open(path, os.O_WRONLY | _BINARY | made | (os.O_EXCL if new else 0), mode), "wb")
+    made |= (os.O_EXCL if new else 0) | (0 if waits else _AT_ONCE)
+    file = Output(os.open(path, os.O_WRONLY | _BINARY | made, mode), "wb")
+    if not waits and _AT_ONCE:
+        os.set_blocking(file.fileno(), True)
+    return file
 
 
 def put(path: Path, content: str | bytes, *, new: bool = False, sync: bool = True, mode: int = 0o666) -> None:
     """Write a file whole, or leave what is there as it was. Raises OSError that names the file.
 
-    `new`: nothing may have its name. What it replaces gives it its mode, a link stays one, and a pipe or device is
-    written to. `sync`: on the disk itself when it counts; `mode`: of a new file.
+    `new`: nothing may have its name. What it replaces gives it its mode, a link stays one, and a device, or a pipe with
+    a reader, is written to. `sync`: on the disk itself when it counts; `mode`: of a new file.
     """
     given = content.encode() if isinstance(content, str) else content
     try:
@@ -125,7 +130,7 @@ def put(path: Path, content: str | bytes, *, new: bool = False, sync: bool = Tru
         if new:
             _made(path, given, sync, mode)
         elif there and not stat.S_ISREG(there.st_mode):
-            with opened(path) as file:
+            with opened(path, waits=False) as file:
                 file.add(given)
         else:
             _replaced(Path(os.path.realpath(path)), given, sync, there, mode)

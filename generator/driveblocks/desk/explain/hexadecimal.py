@@ -54,7 +54,8 @@ def _bytes(digits: str, place: int, following: str) -> bytes:
     if len(digits) == 1:
         return bytes([int(digits, 16)])
     if len(digits) % 2:
-        decimal = f", and decimal {digits} is {int(digits):02X}" if digits.isdecimal() and int(digits) < 256 else ""
+        byte = re.fullmatch("[01][0-9][0-9]|2[0-4][0-9]|25[0-5]", digits)
+        decimal = f", and decimal {digits} is {int(digits):02X}" if byte else ""
         raise Spot(place, f"`{digits}` has {len(digits)} digits", f"a byte is two hexadecimal digits{decimal}")
     return bytes.fromhex(digits)
 

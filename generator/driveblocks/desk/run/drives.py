@@ -119,7 +119,7 @@ def _unit(number: str, taken: set[int]) -> int | None:
     """A unit address that no other drive has: the one that is named, or the next free one."""
     if not number:
         return next((each for each in range(1, HIGHEST_UNIT + 1) if each not in taken), None)
-    unit = int(number) if number.isdecimal() else 0
+    unit = int(number) if re.fullmatch("[0-9]{1,3}", number) else 0
     return unit if 1 <= unit <= HIGHEST_UNIT and unit not in taken else None
 
 

@@ -75,7 +75,7 @@ class Setup:
         if len(ways) > 1:
             found.append(f"{' and '.join(ways)} exclude each other; name one place for the master")
         host, colon, number = (words.tcp or "").rpartition(":")
-        good = colon and host in LOOPBACK and number.isdecimal() and int(number) <= 0xFFFF
+        good = colon and host in LOOPBACK and re.fullmatch("[0-9]{1,5}", number) and int(number) <= 0xFFFF
         if words.tcp is not None and not good:
             found.append(f"--tcp {words.tcp}: a simulator serves this computer only; write --tcp {HOST}:{TCP}")
         if words.port == "":

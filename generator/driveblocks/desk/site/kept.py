@@ -27,6 +27,8 @@ LABEL = re.compile(r"[A-Za-z][A-Za-z0-9]{0,23}")
 MOST_TEXT = 200
 _UINT = re.compile("[0-9]{1,4}|[1-5][0-9]{4}|6[0-4][0-9]{3}|65[0-4][0-9]{2}|655[0-2][0-9]|6553[0-5]")
 Ms = Annotated[int, Form("time of a PLC", _UINT, int, "write 0 to 65535, in ms", numeric=True)]
+_END = re.compile(r"(?m)^\.\.\.(?!\S)\s?")
+"""What ends a document of YAML: nothing can be written behind it."""
 HEAD = "# Written by `driveblocks commission`, one entry per drive; other entries, and all comments, are kept.\n"
 
 
@@ -143,7 +145,7 @@ def write(path: Path, about: About, found: Found) -> None:
 
     Raises OSError, and MapError where the file was made unreadable meanwhile; it is then as it was.
     """
-    report, old = Report(file_name(path)), source.read(path) if path.exists() else HEAD
+    report, old = Report(file_name(path)), _END.sub("", source.read(path)) if path.exists() else HEAD
     new = replaced(old, about.label, text(about, found))
     nodes.parse(new, report)
     report.raise_if_any()

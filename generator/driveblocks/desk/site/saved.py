@@ -16,6 +16,8 @@ from structured_text import files
 from structured_text.visible import file_name
 
 COLUMNS = ("address", "id", "name", "word", "value", "unit", "default")
+LONGEST = 4096
+"""Characters of a line."""
 _HEAD = re.compile(r"# map: (?P<map>\S+), revision (?P<revision>[0-9A-F]{8})")
 _UNIT = re.compile(r"# unit: (?P<unit>[0-9]{1,3})")
 _OURS = re.compile(rf"# parameters of .+, read by driveblocks|# read: [0-9]+ of [0-9]+|{_HEAD.pattern}|{_UNIT.pattern}")
@@ -62,11 +64,16 @@ def write(path: Path, stem: str, drive: Drive, unit: int, words: Mapping[int, Wo
 
 def _line(line: str) -> str:
     """A line as it was written: spreadsheets fill each up with commas, and quote a note that holds one."""
-    cells = next(csv.reader([line]), [])
+    cells = _cells(line)
     if cells and cells[0].startswith("#"):
         return ",".join(cells).rstrip(",")
     more = cells[len(COLUMNS) :]
     return line[: -len(more)] if more and not any(more) else line
+
+
+def _cells(line: str) -> list[str]:
+    """Its cells; none of a line that is too long for a row."""
+    return next(csv.reader([line]), []) if len(line) <= LONGEST else []
 
 
 def read(path: Path) -> Saved:
@@ -84,7 +91,7 @@ def read(path: Path) -> Saved:
     for number, line in enumerate(lines, 1):
         if line.startswith("#") or line == ",".join(COLUMNS):
             continue
-        cells = next(csv.reader([line]), [])
+        cells = _cells(line)
         found = _PLACE.fullmatch(cells[0]) if len(cells) == len(COLUMNS) else None
         if found is None:
             wrong.append(f"{name}:{number}:1: is no row; write {', '.join(COLUMNS)}")
