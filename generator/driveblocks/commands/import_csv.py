@@ -2,20 +2,35 @@
 
 import sys
 from pathlib import Path
+from typing import Literal
 
 import click
 
 from driveblocks.commands import FILE, refuse, write
+from structured_text import files
 
-COLUMN = "address, id, name, unit, scale or access"
+COLUMN = "address, id, name, unit, scale, access, table, type or size"
 
 
 @click.command()
 @click.argument("file", metavar="FILE", help="A table as CSV, TSV or pasted text; `-` reads standard input.")
 @click.option("--column", "columns", multiple=True, metavar="WHAT=HEAD", help=f"The head of a column that is {COLUMN}.")
-@click.option("--addresses", type=click.Choice(("hex", "decimal", "4xxxx")), help="How addresses are written.")
+@click.option(
+    "--addresses",
+    type=click.Choice(("hex", "decimal", "4xxxx")),
+    help="How addresses are written: as sent, or as 40001 for the first.",
+)
+@click.option(
+    "--factor", type=click.Choice(("multiply", "divide")), help="What to do with a word by the table's factor."
+)
 @click.option("-o", "output", type=FILE, metavar="ROWS.yaml", help="A new file for the rows; else they are printed.")
-def run(file: str, columns: tuple[str, ...], addresses: str | None, output: Path | None) -> None:
+def run(
+    file: str,
+    columns: tuple[str, ...],
+    addresses: str | None,
+    factor: Literal["multiply", "divide"] | None,
+    output: Path | None,
+) -> None:
     """Turn a register table into rows of a map.
 
     Check them against the manual one by one. The first line names the columns. Every line that no row could be made of
@@ -32,21 +47,22 @@ def run(file: str, columns: tuple[str, ...], addresses: str | None, output: Path
     if output is not None and output.exists():
         refuse(f"{printable(str(output))}: is there already; name a new file")
     try:
-        text = sys.stdin.read() if file == "-" else Path(file).read_text(encoding="utf-8-sig")
-        made = table.read(text, "the input" if file == "-" else printable(file), named, addresses)
+        text = sys.stdin.read() if file == "-" else files.text(Path(file))
+        how = table.Reading(named, addresses, factor)
+        made = table.read(text, "the input" if file == "-" else printable(file), how)
     except table.TableError as error:
         refuse(str(error))
+    except files.BadFile as error:
+        refuse(str(error))
     except UnicodeDecodeError:
-        refuse(f"{printable(file)}:1:1: cannot be read: it is not UTF-8; save it as such")
-    except OSError as error:
-        refuse(f"{printable(file)}:1:1: cannot be read: {error.strerror}")
+        refuse("the input cannot be read: it is not UTF-8; save it as such")
     rows = "".join(f"      - {each}\n" for each in made.rows)
     if output is None:
         click.echo(rows, nl=False)
     else:
-        write(output, rows, "x")
-    for each in made.left:
-        click.echo(f"{each}; left out", err=True)
-    click.echo(f"{len(made.rows)} rows, {len(made.left)} left out", err=True)
+        write(output, rows, new=True)
+    for each in table.few([f"{each}; left out" for each in made.left]):
+        click.echo(each, err=True)
+    click.echo("; ".join([f"{len(made.rows)} rows, {len(made.left)} left out", *made.assumed]), err=True)
     if made.left:
         sys.exit(1)

@@ -1,37 +1,47 @@
-"""A register table from a spreadsheet, CSV, TSV or pasted text, as rows of a map."""
+"""A register table from a spreadsheet, CSV, TSV or pasted text, as rows of a map.
+
+Nothing is guessed: what may be read in two ways is refused with its lines, and what no row of a map is, is left out.
+"""
 
 import csv
 import io
 import re
-from collections.abc import Iterator, Sequence
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from decimal import Decimal, InvalidOperation
-from typing import get_args
+from typing import NamedTuple
 
-from driveblocks.maps.form import ENGLISH, address_text
+from driveblocks.maps import cell, form
+from driveblocks.maps.cell import NOTHING, Way
+from driveblocks.maps.factor import doubt
 from driveblocks.maps.model import Unit
+from driveblocks.maps.problem import printable
 
 COLUMNS = {
-    "address": ("address", "addr", "register", "reg", "modbus", "hex", "adresse", "地址", "寄存器"),
+    "address": ("address", "addr", "register", "reg", "register number", "modbus", "hex", "adresse", "地址", "寄存器"),
     "id": ("id", "code", "parameter", "par", "no", "number", "nummer", "功能码", "参数"),
-    "name": ("name", "description", "designation", "function", "meaning", "bezeichnung", "名称", "说明"),
+    "name": (
+        "name", "description", "desc", "designation", "function", "meaning", "title", "bezeichnung", "名称", "说明",
+    ),
     "unit": ("unit", "units", "einheit", "单位"),
-    "scale": ("scale", "factor", "resolution", "step", "faktor", "min. unit", "单位换算", "精度"),
-    "access": ("access", "r/w", "rw", "attribute", "zugriff", "读写", "属性"),
-}
-"""What a row is made of -> what the heads of its columns are called; others are left out."""
-MUST = ("address", "name")
-ADDRESSES = ("hex", "decimal", "4xxxx")
-_WORDS = {
-    "r": "r", "ro": "r", "read": "r", "read only": "r", "w": "w", "wo": "w", "write": "w", "write only": "w",
-    "rw": "rw", "r/w": "rw", "read/write": "rw", "只读": "r", "读": "r", "写": "w", "读写": "rw",
+    "scale": (
+        "scale", "scaling", "factor", "gain", "faktor", "resolution", "min. unit", "multiplier", "divisor",
+        "division factor", "单位换算", "精度",
+    ),
+    "access": ("access", "r/w", "rw", "attribute", "write/read", "read/write", "zugriff", "读写", "属性"),
+    "table": ("table", "space", "fc", "register type", "reg type", "object type"),
+    "type": ("type", "datatype", "format", "size of variable", "类型", "数据类型"),
+    "size": ("size", "length", "len", "count", "words", "quantity", "长度"),
 }  # fmt: skip
-_UNITS = {each.lower(): each for each in get_args(Unit)} | {"rpm": "r/min", "ohm": "Ohm", "°c": "°C", "sec": "s"}
-_HEX = re.compile(r"(?:0x|16#|h')?([0-9A-F]{1,4})(?:h|')?", re.IGNORECASE)
-_MARKED = re.compile(r"(?:0x|16#|h')[0-9a-f]+'?|[0-9a-f]+h|[0-9]*[a-f][0-9a-f]*", re.IGNORECASE)
-"""What only a hexadecimal number is."""
-
-
+"""What a row is made of -> what the heads of its columns are called, as a whole or by their last word."""
+MUST = ("address", "name")
+MOST = 100
+"""Nobody reads more lines of one message."""
+_WAYS: dict[str, Way] = {
+    "resolution": "multiply", "min. unit": "multiply", "multiplier": "multiply", "单位换算": "multiply",
+    "精度": "multiply", "divisor": "divide", "division factor": "divide",
+}  # fmt: skip
+_BITS = ("coil", "discrete")
 _TAKEN = {"yes", "no", "on", "off", "true", "false", "null"}
 """What YAML may take for something else than a text."""
 
@@ -40,38 +50,217 @@ class TableError(Exception):
     """What no row can be made of, for a person: each line names its place."""
 
 
+class Reading(NamedTuple):
+    """How to read a table, where it does not show that itself."""
+
+    columns: Mapping[str, str] = {}
+    """What a row is made of -> the head of its column; an empty one: there is none."""
+    addresses: str | None = None
+    """How addresses are written, one of `cell.ADDRESSES`."""
+    way: Way | None = None
+    """What is done with a word by the factor that is given."""
+    codes: bool = False
+    """Whether functions name the table of Modbus."""
+
+
 @dataclass
 class Table:
-    """Rows of a map as YAML, and what was not understood, each with its line."""
+    """Rows of a map as YAML, and what was left out, each with its line."""
 
     rows: list[str] = field(default_factory=list)
     left: list[str] = field(default_factory=list)
+    assumed: list[str] = field(default_factory=list)
+    """What the table does not say."""
 
 
-def read(text: str, name: str, columns: dict[str, str], addresses: str | None) -> Table:
-    """The rows of a table whose first line names its columns.
+def few(lines: Sequence[str]) -> list[str]:
+    """As many lines as somebody reads, and how many more there are."""
+    more = len(lines) - MOST
+    return [*lines[:MOST], f"and {more} more like these"] if more > 0 else list(lines)
 
-    `columns`: what a row is made of -> the head of its column, where that is none of `COLUMNS`; `addresses`: how they
-    are written, one of `ADDRESSES`, where the numbers do not show it. Raises TableError.
-    """
-    lines = [(number, cells) for number, cells in _lines(text) if any(cells)]
+
+def read(text: str, name: str, how: Reading) -> Table:
+    """The rows of a table whose first line names its columns. Raises TableError."""
+    lines = [(number, cells) for number, cells in _lines(text, name) if any(cells)]
     if len(lines) < 2:
         raise TableError(f"{name}:1:1: no table; the first line names the columns, each line after it is a register")
-    places = _places(name, lines[0][0], lines[0][1], columns)
-    known = [each for each in (_cell(cells, places["address"]) for _, cells in lines[1:]) if each]
-    form = addresses or _form(name, lines[0][0], known)
-    made = Table()
-    for number, cells in lines[1:]:
-        row, wrong = _row(cells, places, form)
-        if wrong:
-            made.left.append(f"{name}:{number}:1: {'; '.join(wrong)}")
+    first, heads = lines[0]
+    places = _places(f"{name}:{first}:1", heads, how.columns)
+    rows = [_Row(number, cells, places) for number, cells in lines[1:]]
+    asked = [] if how.addresses else _unclear(first, rows)
+    asked += [] if "id" in how.columns or "id" not in places else _ids(first, heads[places["id"]], rows)
+    asked += [] if "table" in how.columns or "table" in places else _tables(rows)
+    scale, table = (heads[places[what]].lower() if what in places else "" for what in ("scale", "table"))
+    how = how._replace(
+        addresses=how.addresses or ("hex" if any(cell.marked(row.said["address"]) for row in rows) else "decimal"),
+        way=how.way or _WAYS.get(scale),
+        codes=bool(re.search("fc|fun", table)),
+    )
+    for row in rows:
+        row.read(how)
+        asked += [f"{row.line}:1: {each}" for each in row.asked if not row.wrong]
+    if asked:
+        raise TableError("\n".join(few([f"{name}:{each}" for each in asked])))
+    return _table(name, rows, places, how)
+
+
+def _table(name: str, rows: "Sequence[_Row]", places: Mapping[str, int], how: Reading) -> Table:
+    """Rows and what was left out; of rows of one address none is known to be the right one."""
+    made, lines = Table(), dict[int, list[int]]()
+    for row in rows:
+        lines.setdefault(row.address, []).append(row.line)
+    for row in rows:
+        twins = [] if row.wrong else [each for each in lines[row.address][:2] if each != row.line]
+        row.wrong += [f"line {each} has {form.address_text(row.address)}, too" for each in twins[:1]]
+        if row.wrong:
+            made.left.append(f"{name}:{row.line}:1: {'; '.join(row.wrong)}")
         else:
-            made.rows.append(row)
+            made.rows.append(f"{{{', '.join(f'{key}: {value}' for key, value in row.found.items())}}}")
+    if "table" not in places and how.addresses != "4xxxx":
+        made.assumed.append("no column names the table of Modbus: their section says it, by `space`")
+    if "type" not in places:
+        made.assumed.append("no column gives the type of a value: all have 16 bits without a sign")
     return made
 
 
-def _lines(text: str) -> Iterator[tuple[int, list[str]]]:
-    """Lines by their numbers, as cells, by the character that parts most of the first one."""
+class _Row:
+    """One line: what each cell says, the row of a map in the making, what is wrong with it, and what must be asked."""
+
+    def __init__(self, line: int, cells: Sequence[str], places: Mapping[str, int]) -> None:
+        self.line = line
+        self.said = {what: cells[place] if place < len(cells) else "" for what, place in places.items()}
+        self.others = [each for at, each in enumerate(cells) if at not in places.values()]
+        self.address = -1
+        self.found: dict[str, str] = {}
+        self.wrong: list[str] = []
+        self.asked: list[str] = []
+
+    def read(self, how: Reading) -> None:
+        """Make the row."""
+        self._address(how)
+        self._name()
+        self._access()
+        self._width()
+        self._scale(how.way)
+
+    def loose(self) -> list[str]:
+        """The cells that belong to no register: of other columns, and of a line without an address."""
+        none = all(cell.address(self.said["address"], each) is None for each in cell.ADDRESSES)
+        return [*self.others, *(self.said.values() if none else ())]
+
+    def _get(self, what: str) -> str:
+        said = self.said.get(what, "")
+        return "" if said.lower() in NOTHING else said
+
+    def _address(self, how: Reading) -> None:
+        said, table = self.said["address"], self._get("table")
+        number, own = cell.address(said, how.addresses or "") or (-1, None)
+        space = cell.space(table, how.codes) if "table" in self.said else own or "holding"
+        if number < 0:
+            self.wrong.append(f"`{_shown(said)}` is no {how.addresses} address of one register")
+        elif space is None or own not in (None, space):
+            self.wrong.append(f"`{_shown(table)}` names no table of Modbus{' of this address' * bool(own)}")
+        else:
+            self.address = form.SPACES[space] + number
+            self.found["address"] = f"{number:04X}H"
+            self.found |= {"space": space} if space != "holding" else {}
+
+    def _name(self) -> None:
+        name, number = self._get("name"), self._get("id")
+        if number:
+            self.found["id"] = _quoted(number)
+            self.wrong += [] if form.ID.pattern.fullmatch(number) else [f"`{_shown(number)}` is no id"]
+        self.found["name" if name.isascii() else "wording"] = _quoted(name)
+        if not name or not name.isprintable():
+            self.wrong.append(f"the name is {'no text' if name else 'empty'}")
+
+    def _access(self) -> None:
+        if said := self._get("access"):
+            access = cell.access(said)
+            self.wrong += [] if access else [f"`{_shown(said)}` is no access; write r, w or rw"]
+            self.found["access"] = access or ""
+            if self.found.get("space") in ("input", "discrete") and "w" in self.found["access"]:
+                self.wrong.append(f"`{_shown(said)}`: an {self.found['space']} is only read")
+
+    def _width(self) -> None:
+        bit = self.found.get("space") in _BITS
+        for what in ("type", "size"):
+            said = self._get(what)
+            signed = cell.signed(said)
+            right = said.lower() in ("", "bit", "bool", "boolean", "1") if bit else signed is not None
+            if said and cell.names_table(said):
+                self.asked.append(f"`{said}` names a table of Modbus; name its column by --column table=...")
+            elif not right and (said or (what == "type" and what in self.said)):
+                self.wrong.append(f"`{_shown(said)}` is no {what} of {'a bit' if bit else 'a value of 16 bits'}")
+            self.found |= {"signed": "true"} if signed else {}
+        below = next((each for each in self.others if re.match("-[0-9]", each)), None)
+        if below and "type" not in self.said:
+            self.wrong.append(f"`{_shown(below)}` is negative, and no column says how a sign is sent")
+
+    def _scale(self, way: Way | None) -> None:
+        said, scale = self._get("unit"), self._get("scale")
+        if not scale and cell.unit(said) is None and cell.factor(said):
+            said, scale = "", said
+        unit = cell.unit(said)
+        factor = cell.factor(scale)
+        if said and self.found.get("space") in _BITS:
+            self.wrong.append("one bit has no unit")
+        if said and unit is None:
+            self.wrong.append(f"`{_shown(said)}` is no unit of a map")
+        if factor and factor.unit:
+            unit = cell.unit(factor.unit) if unit in (None, cell.unit(factor.unit)) else None
+            factor = factor if unit else None
+        if scale and (factor is None or not factor.number):
+            self.wrong.append(f"`{_shown(scale)}` is no factor")
+        elif factor:
+            self._factor(factor, way, unit)
+        self.found |= {"unit": _quoted(unit)} if unit and "scale" not in self.found else {}
+
+    def _factor(self, factor: cell.Factor, way: Way | None, unit: Unit | None) -> None:
+        """A factor, which has a unit and is one that a drive may have."""
+        number = factor.per_count(way)
+        if not unit and factor.number != 1:
+            self.wrong.append("a factor without a unit")
+        elif number is None:
+            both = f"{factor.number} {unit} per count or {factor.number} counts per {unit}"
+            self.asked.append(f"`{factor.number}` may be {both}; say --factor multiply or divide")
+        elif unit and (doubted := doubt(number, unit, 16)):
+            self.wrong.append(doubted[0])
+        elif unit and number * 10**9 % 1:
+            self.wrong.append(f"{number} has more than 9 decimals")
+        elif unit:
+            self.found["unit"] = _quoted(unit)
+            self.found["scale"] = f"{{factor: {number.normalize():f}, source: the table}}"
+
+
+def _unclear(first: int, rows: Sequence[_Row]) -> list[str]:
+    """Addresses that may be decimal or hexadecimal."""
+    shown = [row for row in rows if cell.marked(row.said["address"])]
+    plain = [row for row in rows if row.said["address"].isascii() and row.said["address"].isdigit()]
+    if not shown:
+        return [f"{first}:1: no address shows whether it is hexadecimal; say --addresses {', '.join(cell.ADDRESSES)}"]
+    beside = f"and `{shown[0].said['address']}` of line {shown[0].line} is hexadecimal; say --addresses hex or decimal"
+    return [f"{row.line}:1: `{row.said['address']}` may be decimal, {beside}" for row in plain]
+
+
+def _ids(first: int, head: str, rows: Sequence[_Row]) -> list[str]:
+    """Whether the column of the ids may be another: several registers have one of them, or they are functions."""
+    ids = Counter(row.said["id"] for row in rows if row.said["id"].lower() not in NOTHING)
+    codes = "fun" in head.lower() and all(cell.space(each, codes=True) for each in ids)
+    shared = next((each for each, number in ids.items() if codes or number > 1), None)
+    ways = "say --column id=..., --column id= for none, or --column table=..."
+    return [f"{first}:1: `{_shown(head)}`, with `{_shown(shared)}`, may be no id; {ways}"] if shared else []
+
+
+def _tables(rows: Sequence[_Row]) -> list[str]:
+    """What names a table of Modbus where no column does."""
+    found = [(row.line, each) for row in rows for each in row.loose() if cell.names_table(each)]
+    ways = "name its column by --column table=..., or split the file; if it has but one table, say --column table="
+    return [f"{line}:1: `{_shown(each)}` names a table of Modbus; {ways}" for line, each in found]
+
+
+def _lines(text: str, name: str) -> Iterator[tuple[int, list[str]]]:
+    """Lines by their numbers, as cells, by the character that parts most of the first one. Raises TableError."""
     lines = text.splitlines()
     first = next((line for line in lines if line.strip()), "")
     by = max("\t;,|", key=first.count)
@@ -79,97 +268,49 @@ def _lines(text: str) -> Iterator[tuple[int, list[str]]]:
         yield from ((number, re.split(r" {2,}", line.strip())) for number, line in enumerate(lines, 1))
         return
     reader, begun = csv.reader(io.StringIO(text, newline=""), delimiter=by), 1
-    for row in reader:
-        yield begun, [" ".join(cell.split()) for cell in row]
-        begun = reader.line_num + 1
+    try:
+        for row in reader:
+            yield begun, [" ".join(each.split()) for each in row]
+            begun = reader.line_num + 1
+    except csv.Error as error:
+        raise TableError(f"{name}:{begun}:1: cannot be read as a table: {error}") from None
 
 
-def _places(name: str, line: int, heads: Sequence[str], columns: dict[str, str]) -> dict[str, int]:
-    """Which column is what."""
+def _places(place: str, heads: Sequence[str], named: Mapping[str, str]) -> dict[str, int]:
+    """Which column is what. Raises TableError."""
     places, wrong = {}, []
-    for what, words in COLUMNS.items():
-        asked = columns.get(what)
-        found = [at for at, head in enumerate(heads) if (head == asked if asked else _is(head, words))]
-        if asked and not found:
-            wrong.append(f"no column is called `{asked}`")
-        elif what in MUST and not found:
-            wrong.append(f"no column is the {what}; name it, such as --column {what}=`{heads[0]}`")
-        elif what in MUST and len(found) > 1:
-            both = " and ".join(f"`{heads[at]}`" for at in found)
+    free = [None if head in named.values() else _meant(head) for head in heads]
+    for what in COLUMNS:
+        head = named.get(what)
+        found = [at for at in range(len(heads)) if (free[at] == what if head is None else head and heads[at] == head)]
+        if len(found) > 1:
+            both = " and ".join(f"`{_shown(heads[at])}`" for at in found)
             wrong.append(f"{both} may be the {what}; name one by --column {what}=...")
         elif found:
             places[what] = found[0]
+        elif head:
+            wrong.append(f"no column is called `{_shown(head)}`")
+        elif what in MUST:
+            wrong.append(f"no column is the {what}; name it, such as --column {what}=`{_shown(heads[0])}`")
     if wrong:
-        raise TableError("\n".join(f"{name}:{line}:1: {each}" for each in wrong))
+        raise TableError("\n".join(f"{place}: {each}" for each in wrong))
     return places
 
 
-def _is(head: str, words: Sequence[str]) -> bool:
-    said = head.lower().strip(" .:")
-    return any(said == word or word in re.split(r"[^\w./]+", said) for word in words)
+def _meant(head: str) -> str | None:
+    """What a column is by its head: the whole of it, or its last word that is known."""
+    said = re.sub(r"[\s_]+", " ", head.lower()).strip(" .:")
+    parts = [each.strip(".") for each in re.split(r"[^\w./]+", said)]
+    for known in (said, *reversed(parts)):
+        for what, words in COLUMNS.items():
+            if known in words:
+                return what
+    return None
 
 
-def _form(name: str, line: int, known: Sequence[str]) -> str:
-    """How addresses are written, where one of them shows it."""
-    if any(_MARKED.fullmatch(each) for each in known):
-        return "hex"
-    if known and all(re.fullmatch("4[0-9]{4}", each) for each in known):
-        return "4xxxx"
-    raise TableError(
-        f"{name}:{line}:1: no address shows whether it is hexadecimal; say so by --addresses {', '.join(ADDRESSES)}"
-    )
-
-
-def _row(cells: Sequence[str], places: dict[str, int], form: str) -> tuple[str, list[str]]:
-    """A row as YAML, and what is wrong with it."""
-    said = {what: _cell(cells, place) for what, place in places.items()}
-    address, wrong = _address(said["address"], form), []
-    if address is None:
-        wrong.append(f"`{said['address']}` is no {form} address of one register")
-    found = {"address": address_text(address or 0)}
-    if said.get("id") and places.get("id") != places["address"]:
-        found["id"] = _quoted(said["id"])
-    english = said["name"].isascii() and re.fullmatch(ENGLISH.pattern, said["name"])
-    if not said["name"]:
-        wrong.append("the name is empty")
-    found["name" if english else "wording"] = _quoted(said["name"])
-    access, unit, scale = (said.get(what, "") for what in ("access", "unit", "scale"))
-    if access:
-        found["access"] = _WORDS.get(access.lower(), "")
-        wrong += [] if found["access"] else [f"`{access}` is no access; write r, w or rw"]
-    if unit not in ("", "-", "/"):
-        found["unit"] = _quoted(_UNITS.get(unit.lower(), ""))
-        wrong += [] if unit.lower() in _UNITS else [f"`{unit}` is no unit of a map"]
-    if scale not in ("", "-", "/"):
-        factor = _factor(scale)
-        wrong += [] if factor else [f"`{scale}` is no factor"]
-        found["scale"] = f"{{factor: {factor}, source: the table}}"
-    return f"{{{', '.join(f'{key}: {value}' for key, value in found.items())}}}", wrong
-
-
-def _cell(cells: Sequence[str], place: int) -> str:
-    return cells[place] if place < len(cells) else ""
-
-
-def _address(said: str, form: str) -> int | None:
-    """A wire address: numbers such as 40001 count from 1."""
-    if form == "hex":
-        match = _HEX.fullmatch(said)
-        return int(match[1], 16) if match else None
-    if not said.isascii() or not said.isdigit():
-        return None
-    number = int(said) - (40001 if form == "4xxxx" else 0)
-    return number if 0 <= number <= 0xFFFF else None
-
-
-def _factor(said: str) -> Decimal | None:
-    """0.01, also of `0.01 Hz`, `0,01` and `1/100`."""
-    match = re.match(r"([0-9]+(?:[.,][0-9]+)?)(?:/([0-9]+))?", said)
-    try:
-        number = Decimal(match[1].replace(",", ".")) / Decimal(match[2] or 1) if match else Decimal(0)
-    except (InvalidOperation, ZeroDivisionError):
-        return None
-    return number if number > 0 else None
+def _shown(said: str) -> str:
+    """What a cell says, as a terminal can show it."""
+    return printable(said if len(said) <= 60 else said[:60] + "...")
 
 
 def _quoted(said: str) -> str:
