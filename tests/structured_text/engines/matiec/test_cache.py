@@ -152,6 +152,55 @@ class TestOwner:
             cache.entry("abc", never)
         assert "belongs to another user" in str(cache.check())
 
+    @pytest.mark.parametrize("step", ["entries", "entries/ab"])
+    def test_every_step_of_the_way_is_looked_at(self, tmp_path: Path, step: str) -> None:
+        cache = Cache(tmp_path / "cache")
+        cache.entry("abc", write("text"))
+        (cache.root / step).chmod(0o777)
+        with pytest.raises(EngineError, match=f"cache/{step} can be written by others .mode 777.; make it yours"):
+            cache.entry("abc", never)
+        (cache.root / step).chmod(0o700)
+        (cache.root / step).rename(tmp_path / "elsewhere")
+        (cache.root / step).symlink_to(tmp_path / "elsewhere")
+        with pytest.raises(EngineError, match=f"cache/{step} is a link; make it yours"):
+            cache.entry("abc", never)
+
+    @pytest.mark.parametrize("step", ["", "library.so", SEAL])
+    def test_an_entry_that_others_may_write_or_that_is_a_link_is_made_again(self, tmp_path: Path, step: str) -> None:
+        cache = Cache(tmp_path / "cache")
+        folder = cache.entry("abc", write("first"))
+        (folder / step).chmod(0o777 if not step else 0o666)
+        assert cache.entry("abc", write("second")) == folder
+        assert (folder / "library.so").read_text(encoding="utf-8") == "second"
+        (folder / step).rename(tmp_path / "elsewhere")
+        (folder / step).symlink_to(tmp_path / "elsewhere")
+        assert cache.entry("abc", write("third")) == folder
+        assert [(folder / name).is_symlink() for name in ("", "library.so", SEAL)] == [False] * 3
+        assert (folder / "library.so").read_text(encoding="utf-8") == "third"
+        assert cache.entry("abc", never) == folder
+
+    def test_what_leads_to_the_cache_may_be_a_link_of_the_users_and_nobody_elses_to_write(self, tmp_path: Path) -> None:
+        (tmp_path / "disk").mkdir()
+        (tmp_path / "link").symlink_to(tmp_path / "disk")
+        cache = Cache(tmp_path / "link" / "cache")
+        assert cache.entry("abc", write("text")).is_dir()
+        for open_ in (tmp_path / "disk", tmp_path):
+            open_.chmod(0o777)
+            with pytest.raises(EngineError, match=f"{open_} can be written by others .mode 777."):
+                cache.entry("abc", never)
+            open_.chmod(0o1777)
+            assert cache.entry("abc", never).is_dir()
+            open_.chmod(0o700)
+
+    def test_modes_of_files_do_not_hang_on_what_makes_them(self, tmp_path: Path) -> None:
+        before = os.umask(0)
+        try:
+            folder = Cache(tmp_path / "cache").entry("abc", write("text"))
+        finally:
+            os.umask(before)
+        assert {stat.S_IMODE(each.stat().st_mode) for each in folder.iterdir()} == {0o600}
+        assert Cache(tmp_path / "cache").entry("abc", never) == folder
+
 
 def test_folder() -> None:
     assert cache_folder({"DRIVEBLOCKS_CACHE": "a", "XDG_CACHE_HOME": "b"}) == Path("a")
