@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 from click.testing import CliRunner
-from tests.commands.test_run import ONE
+from tests.desk.run.desk import ONE
 
 from driveblocks.cli import app
 from driveblocks.desk.site import kept, saved

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, NoReturn
 
 import click
 
+from structured_text import files
 from structured_text.visible import file_name
 
 if TYPE_CHECKING:
@@ -25,20 +26,13 @@ def refuse(message: str) -> NoReturn:
     sys.exit(2)
 
 
-def write(path: Path, text: str, mode: str = "w") -> None:
-    """Write a file; with mode `x` a new one, of which nothing is left if the disk is full. Ends with status 2."""
+def write(path: Path, text: str, *, new: bool = False) -> None:
+    """Write a file; `new`: nothing may have its name. Ends with status 2, and leaves what was there."""
     try:
-        file = path.open(mode, encoding="utf-8", newline="\n")
+        files.put(path, text, new=new)
     except FileExistsError:
         refuse(f"{file_name(path)}: is there already; name another file with -o")
     except OSError as error:
-        refuse(f"{file_name(path)}: cannot be written: {error.strerror}")
-    try:
-        with file:
-            file.write(text)
-    except OSError as error:
-        if mode == "x":
-            path.unlink(missing_ok=True)
         refuse(f"{file_name(path)}: cannot be written: {error.strerror}")
 
 

@@ -20,7 +20,7 @@ def run(prefix: str, output: Path | None) -> None:
     """
     path = output or Path(f"{prefix.lower()}.yaml")
     text = _named(prefix)
-    write(path, text, "x")
+    write(path, text, new=True)
     click.echo(f"{path}: the map of a drive that does not exist; replace every fact by your manual's, then run")
     click.echo(f"driveblocks check {path}")
 

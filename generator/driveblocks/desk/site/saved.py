@@ -12,6 +12,7 @@ from driveblocks.desk.words import Refused
 from driveblocks.maps.form import SPACES, address_text
 from driveblocks.maps.model import Drive
 from driveblocks.maps.revision import revision
+from driveblocks.maps.table import few
 from structured_text import files
 from structured_text.visible import file_name
 
@@ -101,5 +102,5 @@ def read(path: Path) -> Saved:
             address = SPACES[found[1] or "holding"] + int(found[2], 16)
             words[address] = int(cells[3]) if _WORD.fullmatch(cells[3]) else cells[3]
     if wrong:
-        raise Refused("\n".join(wrong))
+        raise Refused("\n".join(few(wrong)))
     return Saved(name, head["map"], int(unit["unit"]), words, head["revision"])
