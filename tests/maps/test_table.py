@@ -215,7 +215,7 @@ def test_numbers_of_registers_name_their_table() -> None:
         "{address: 0001H, space: coil",
     ]
     assert made.left == [
-        "t.csv:6:1: `rw`: an input is only read",
+        "t.csv:6:1: `rw`: input is read only",
         "t.csv:7:1: `40000` is no 4xxxx address of one register",
     ]
     with pytest.raises(TableError, match="no address shows"):

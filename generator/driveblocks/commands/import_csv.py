@@ -15,14 +15,8 @@ COLUMN = "address, id, name, unit, scale, access, table, type or size"
 @click.command()
 @click.argument("file", metavar="FILE", help="A table as CSV, TSV or pasted text; `-` reads standard input.")
 @click.option("--column", "columns", multiple=True, metavar="WHAT=HEAD", help=f"The head of a column that is {COLUMN}.")
-@click.option(
-    "--addresses",
-    type=click.Choice(("hex", "decimal", "4xxxx")),
-    help="How addresses are written: as sent, or as 40001 for the first.",
-)
-@click.option(
-    "--factor", type=click.Choice(("multiply", "divide")), help="What to do with a word by the table's factor."
-)
+@click.option("--addresses", type=click.Choice(("hex", "decimal", "4xxxx")), help="How addresses are written.")
+@click.option("--factor", type=click.Choice(("multiply", "divide")), help="What a factor does to the word that is read.")
 @click.option("-o", "output", type=FILE, metavar="ROWS.yaml", help="A new file for the rows; else they are printed.")
 def run(
     file: str,
@@ -34,7 +28,8 @@ def run(
     """Turn a register table into rows of a map.
 
     Check them against the manual one by one. The first line names the columns. Every line that no row could be made of
-    is reported with its number. The exit status is 0 if all were understood, 1 if some were left out, 2 for bad input.
+    is reported with its number; what may be meant in two ways is refused, with the option that says which. The exit
+    status is 0 if all were understood, 1 if some were left out, 2 for what is refused and for bad input.
 
     Example: driveblocks import-csv registers.csv --addresses hex
     """
@@ -50,9 +45,7 @@ def run(
         text = sys.stdin.read() if file == "-" else files.text(Path(file))
         how = table.Reading(named, addresses, factor)
         made = table.read(text, "the input" if file == "-" else printable(file), how)
-    except table.TableError as error:
-        refuse(str(error))
-    except files.BadFile as error:
+    except (table.TableError, files.BadFile) as error:
         refuse(str(error))
     except UnicodeDecodeError:
         refuse("the input cannot be read: it is not UTF-8; save it as such")

@@ -8,7 +8,6 @@ from driveblocks.maps.model import Space, Unit
 
 ADDRESSES = ("hex", "decimal", "4xxxx")
 Way = Literal["multiply", "divide"]
-WAYS: tuple[Way, ...] = get_args(Way)
 NOTHING = ("", "-", "/", "n/a")
 
 _MARKED = re.compile(r"(?:0x|16#|h')([0-9a-f]{1,4})'?|([0-9a-f]{1,4})h", re.IGNORECASE)
@@ -30,11 +29,8 @@ _TABLES: dict[Space, str] = {
 _BEFORE = re.compile("([0-9]+|modbus|read|write|single|multiple) ")
 """What stands before the name of a table and changes nothing."""
 _CODES: dict[Space, tuple[int, ...]] = {
-    "coil": (1, 5, 15),
-    "discrete": (2,),
-    "input": (4,),
-    "holding": (3, 6, 10, 16, 23),
-}
+    "coil": (1, 5, 15), "discrete": (2,), "input": (4,), "holding": (3, 6, 10, 16, 23),
+}  # fmt: skip
 """Functions, of which no list of decimal numbers has 10: there it is 10H."""
 _REGIONS: dict[str, Space] = {"0": "coil", "1": "discrete", "3": "input", "4": "holding"}
 _WIDTHS = {

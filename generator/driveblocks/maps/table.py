@@ -180,7 +180,7 @@ class _Row:
             self.wrong += [] if access else [f"`{_shown(said)}` is no access; write r, w or rw"]
             self.found["access"] = access or ""
             if self.found.get("space") in ("input", "discrete") and "w" in self.found["access"]:
-                self.wrong.append(f"`{_shown(said)}`: an {self.found['space']} is only read")
+                self.wrong.append(f"`{_shown(said)}`: {self.found['space']} is read only")
 
     def _width(self) -> None:
         bit = self.found.get("space") in _BITS
