@@ -62,8 +62,9 @@ def _json(changes: "list[Change]") -> None:
 
 def _lines(old: str, new: str, changes: "list[Change]", *, words: bool, markdown: bool) -> "Iterator[str]":
     from driveblocks.diff.change import Kind
+    from driveblocks.maps import view
 
-    yield f"### {new}\n\nSince {old}:" if markdown else f"from {old}\nto   {new}"
+    yield f"### {view.markdown(new)}\n\nSince {view.markdown(old)}:" if markdown else f"from {old}\nto   {new}"
     if not changes:
         yield "\nNothing differs." if markdown else "\nnothing differs"
     for kind in Kind:
@@ -76,4 +77,4 @@ def _lines(old: str, new: str, changes: "list[Change]", *, words: bool, markdown
             continue
         heading = f"{kind.value[0].upper()}{kind.value[1:]}:\n" if markdown else f"{kind.value}: {len(rows)}"
         yield heading
-        yield from (f"- {each}" if markdown else f"  {each}" for each in rows)
+        yield from (f"- {view.markdown(str(each))}" if markdown else f"  {each}" for each in rows)

@@ -52,7 +52,8 @@ def front(maps: Mapping[Path, Drive], folder: Path) -> str:
     for maker, drives in makers.items():
         held = [counts.of_drive(drive) for _, drive in drives]
         links = ", ".join(_link(path, drive, folder) for path, drive in drives)
-        rows.append((maker, links, str(sum(one.errata for one in held)), str(sum(one.absent for one in held))))
+        errata, absent = (str(sum(getattr(one, key) for one in held)) for key in ("errata", "absent"))
+        rows.append((view.markdown(maker), links, errata, absent))
     return "".join(f"| {' | '.join(row)} |\n" for row in rows)
 
 
@@ -60,7 +61,7 @@ def _link(path: Path, drive: Drive, folder: Path) -> str:
     page = (
         Path(os.path.relpath(path.resolve().parents[1], folder.resolve())) / "blocks/docs" / f"{drive.prefix}_Drive.md"
     )
-    return f"[{drive.family.en}]({page.as_posix()})"
+    return f"[{view.markdown(drive.family.en)}]({page.as_posix()})"
 
 
 def abilities(drive: Drive) -> tuple[str, str]:
@@ -96,11 +97,11 @@ def table(maps: Mapping[Path, Drive], folder: Path) -> str:
 
 def _drive(drive: Drive, link: Path) -> Iterator[tuple[str, ...]]:
     held = counts.of_drive(drive)
-    name = f"[**{drive.prefix}**]({link.as_posix()}) {view.title(drive)}"
+    name = f"[**{drive.prefix}**]({link.as_posix()}) {view.markdown(view.title(drive))}"
     yield name, *_numbers(held.total), *_kinds(held)
     blank = ("",) * len(_kinds(held))
     for section in drive.sections:
-        yield f"· {section.title.en}", *_numbers(held.sections[section.id]), *blank
+        yield f"· {view.markdown(section.title.en)}", *_numbers(held.sections[section.id]), *blank
     lists = str(held.setting_values.enums), str(held.setting_values.enum_values)
     yield "· keypad settings", "", "", *lists, str(held.settings), *blank[1:]
 

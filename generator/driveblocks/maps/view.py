@@ -50,6 +50,11 @@ PROVABLE = "`driveblocks prove` shows that they hold in every call of its drive 
 """What is said of the safety rules wherever a map is shown."""
 
 
+def markdown(text: str) -> str:
+    """A text in Markdown, shown as it is: it ends no line and no cell, and begins no tag, link or picture."""
+    return re.sub(r"([\\|<]|(?<=\])\()", r"\\\1", re.sub(r"[\r\n]+", " ", text))
+
+
 def title(drive: Drive) -> str:
     """Maker and family in English, the maker once."""
     vendor, family = drive.vendor.en, drive.family.en

@@ -7,7 +7,7 @@ from itertools import chain
 
 import jinja2
 
-from driveblocks.maps import form
+from driveblocks.maps import form, view
 from driveblocks.maps.model import Condition
 from driveblocks.modbus.checksum import MODBUS
 from driveblocks.render import constants, expression, results
@@ -55,6 +55,7 @@ def environment() -> jinja2.Environment:
     )
     made.filters.update(
         word=writing.word,
+        plain=view.markdown,
         byte=writing.byte,
         comment=writing.comment,
         span=form.span_text,

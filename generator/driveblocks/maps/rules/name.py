@@ -95,7 +95,7 @@ def _inside(entry: Entry) -> Iterator[Entry]:
 
 
 def _texts(entry: Some, key: str, english: str | None, report: Report) -> None:
-    if key == "name" and english and "\n" in english:
+    if english and ("\n" in english or "\r" in english):
         report.add(entry.place(key), "this name has several lines", "write it on one line")
     if entry.zh_used is not None and entry.zh is None:
         report.miss(entry.place("zh_used"), "`zh_used` without `zh`", "add `zh` as the manual prints it")
