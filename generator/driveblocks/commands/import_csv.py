@@ -16,7 +16,7 @@ COLUMN = "address, id, name, unit, scale, access, table, type or size"
 @click.argument("file", metavar="FILE", help="A table as CSV, TSV or pasted text; `-` reads standard input.")
 @click.option("--column", "columns", multiple=True, metavar="WHAT=HEAD", help=f"The head of a column that is {COLUMN}.")
 @click.option("--addresses", type=click.Choice(("hex", "decimal", "4xxxx")), help="How addresses are written.")
-@click.option("--factor", type=click.Choice(("multiply", "divide")), help="What a factor does to the word that is read.")
+@click.option("--factor", type=click.Choice(("multiply", "divide")), help="What a factor does to a word that is read.")
 @click.option("-o", "output", type=FILE, metavar="ROWS.yaml", help="A new file for the rows; else they are printed.")
 def run(
     file: str,
