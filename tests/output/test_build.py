@@ -1,6 +1,7 @@
 """What is built from maps: the same text every time, in the languages asked for."""
 
 import os
+import posixpath
 import re
 import shutil
 import subprocess
@@ -94,8 +95,18 @@ def test_a_wheel_carries_all_that_a_build_of_all_targets_needs(tmp_path: Path) -
     assert made >= {*TARGETS}
 
 
-def test_without_the_canonical_text_no_page_leads_to_it() -> None:
-    made = build.files(collection.read([EXAMPLE]), BOTH, ["siemens"])
-    links = re.findall(r"\]\(([^)#:]+)\)", made["README.md"])
-    assert links
-    assert set(links) <= made.keys()
+def test_no_page_leads_to_what_is_not_there_and_in_a_checkout_it_leads_to_the_guides(tmp_path: Path) -> None:
+    link = re.compile(r"\]\((?!\w+:)([^)#]+)")
+    guide = tmp_path / "checkout/docs/stop.md"
+    guide.parent.mkdir(parents=True)
+    guide.touch()
+    for place, beside in (("alone/out", set[str]()), ("checkout/out", {"../docs/stop.md"})):
+        made = build.plan(tmp_path / place, [EXAMPLE], build.Wanted(BOTH, ["siemens"])).texts
+        led = {
+            posixpath.normpath(posixpath.join(posixpath.dirname(name), target))
+            for name, content in made.items()
+            if name.endswith(".md")
+            for target in link.findall(content)
+        }
+        assert led - made.keys() == beside
+        assert {"siemens/README.md", "docs/Families.md"} <= led

@@ -9,7 +9,7 @@ from driveblocks.docs.page import Measured, Own, documents
 from driveblocks.maps import catalog
 from driveblocks.maps.collection import Source, read
 from driveblocks.maps.problem import MapError
-from driveblocks.output import manifest, transaction
+from driveblocks.output import links, manifest, transaction
 from driveblocks.output.manifest import Manifest, Refused, State
 from driveblocks.platforms import CANONICAL, TARGETS, is_yours, writers
 from driveblocks.platforms.part import shelf
@@ -105,12 +105,22 @@ def plan(folder: Path, named: list[Path], asked: Wanted, made: Made = files) -> 
             there = ", ".join(map(str, others))
             error.add_note(f"{folder} was built from {there} as well; --only builds without")
         raise
-    texts = made(sources, asked.languages, targets, asked.measured)
+    texts = _linked(made(sources, asked.languages, targets, asked.measured), folder)
     words = [_word(source.path, folder) for source in sources]
     texts[manifest.NAME] = manifest.made(words, targets, texts, folder, old).text
     states = manifest.compare(folder, old, texts)
     kept = tuple(name for name, state in states.items() if state is State.EDITED and is_yours(name))
     return Plan(sources, old, texts, {name: state for name, state in states.items() if name not in kept}, kept)
+
+
+def _linked(texts: dict[str, str], folder: Path) -> dict[str, str]:
+    """All files; a link leads to one of them, or to what is beside the folder, as in a checkout, or becomes words."""
+
+    def there(path: str) -> bool:
+        outside = path.removeprefix("../")
+        return path in texts if outside == path else (folder.resolve().parent / outside).exists()
+
+    return {name: links.live(name, text, there) if name.endswith(".md") else text for name, text in texts.items()}
 
 
 def write(folder: Path, plan: Plan, *, force: bool = False) -> None:

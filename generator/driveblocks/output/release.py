@@ -1,14 +1,13 @@
 """Archives to download: for each platform one of all families, and one of each family with a page of its own."""
 
-import posixpath
-import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from io import BytesIO
 from pathlib import Path
 from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
 from driveblocks import __version__
 from driveblocks.maps.collection import Source
+from driveblocks.output import links
 from driveblocks.output.build import files
 from driveblocks.platforms import CANONICAL, TARGETS
 from driveblocks.render.library import FRAMES
@@ -18,7 +17,6 @@ from structured_text import files as door
 BLOCKS, LICENCE = "blocks", "LICENSE"
 DATE = (1980, 1, 1, 0, 0, 0)
 """Of every file: the same files make the same archive on every day."""
-_LINK = re.compile(r"(!?)\[([^\]]*)\]\((?!\w+:)([^)#\s]*)(#[^)\s]*)?\)")
 
 
 def release(root: Path, out: Path, sources: Sequence[Source], targets: Sequence[str] = TARGETS) -> list[Path]:
@@ -49,36 +47,16 @@ def contents(root: Path, sources: list[Source], target: str, both: list[Language
     page = f"{BLOCKS}/README.md" if target == CANONICAL else f"{BLOCKS}/{target}/README.md"
     own[page] = built[page]
     leading = own if not without else {name: own[name] for name in own if name.startswith(f"{BLOCKS}/{target}/")}
-    for link in sorted(set(_links(leading))):
+    for link in sorted({link for name in leading if name.endswith(".md") for link in links.targets(name, own[name])}):
         beside = root / link
         if link.startswith("docs/") and beside.suffix == ".md" and beside.is_file():
             own[link] = _page(beside)
-    pages = {name: _unlinked(name, text, own) for name, text in own.items() if name.endswith(".md")}
+    pages = {name: links.live(name, text, own.__contains__) for name, text in own.items() if name.endswith(".md")}
     return own | pages | {LICENCE: _page(root / LICENCE)}
 
 
 def _page(path: Path) -> str:
     return door.text(path).replace("\r\n", "\n")
-
-
-def _links(own: Mapping[str, str]) -> Iterator[str]:
-    """Where the links of the pages lead, as paths from the root."""
-    for name, text in own.items():
-        if name.endswith(".md"):
-            yield from (_target(name, found[3]) for found in _LINK.finditer(text))
-
-
-def _target(page: str, link: str) -> str:
-    return posixpath.normpath(posixpath.join(posixpath.dirname(page), link)) if link else page
-
-
-def _unlinked(page: str, text: str, there: Mapping[str, str]) -> str:
-    """The page with its links to what is not in the archive as plain words."""
-
-    def kept(found: re.Match[str]) -> str:
-        return found[0] if _target(page, found[3]) in there else found[2]
-
-    return _LINK.sub(kept, text)
 
 
 def _packed(texts: Mapping[str, str]) -> bytes:
