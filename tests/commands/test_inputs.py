@@ -89,3 +89,19 @@ def test_many_mistakes_are_cut_and_counted() -> None:
     assert got.exit_code == 2
     assert len(got.stderr.splitlines()) < 250
     assert "more like these" in got.stderr
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        "new ACME -o P.yaml", "import-csv t.csv -o P.yaml", "line jscc --picture P.svg", "site --html P.html",
+        "run my.st --fast --for 1s --trace P.csv", "run my.st --fast --for 1s --picture P.svg", "build jscc -o P",
+        "listen --port x --log P.txt", "listen --port x --csv P.csv", "parameters save jscc P.csv --port x",
+        "parameters compare P.csv P.csv", "commission jscc --port x --file P.yaml", "schema P", "diff P jscc",
+    ],
+)  # fmt: skip
+def test_a_name_that_is_too_long_is_refused(words: str) -> None:
+    Path("t.csv").write_text("address,name\n2000H,Speed\n", encoding="utf-8")
+    got = CliRunner().invoke(app, words.replace("P", "P" * 5000).split())
+    assert isinstance(got.exception, SystemExit)
+    assert got.exit_code == 2

@@ -39,8 +39,6 @@ def run(
     named = dict(each.partition("=")[::2] for each in columns)
     if strange := named.keys() - table.COLUMNS.keys():
         raise click.BadParameter(f"`{min(strange)}` is none of {COLUMN}", param_hint="--column")
-    if output is not None and output.exists():
-        refuse(f"{printable(str(output))}: is there already; name a new file")
     try:
         text = sys.stdin.read() if file == "-" else files.text(Path(file))
         how = table.Reading(named, addresses, factor)
