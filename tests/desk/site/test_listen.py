@@ -27,7 +27,8 @@ from driveblocks.desk.explain.paste import read
 from driveblocks.desk.port import EXCLUSIVE
 from driveblocks.desk.site import ear, listen, overheard
 from driveblocks.desk.site.found import Way
-from driveblocks.desk.site.traffic import Cutter, Frame, Said, Traffic
+from driveblocks.desk.exchange import Said, Exchanges
+from driveblocks.desk.frames import Cutter, Frame
 from driveblocks.modbus.frame import seal
 from driveblocks.modbus.layout import Dialect
 
@@ -39,10 +40,10 @@ WRITE, REFUSED = "01 06 20 00 00 05", "01 83 02"
 
 
 def heard(
-    *frames: tuple[int, str] | str, mode: str = "rtu", traffic: Traffic | None = None
-) -> tuple[Traffic, list[Said]]:
+    *frames: tuple[int, str] | str, mode: str = "rtu", traffic: Exchanges | None = None
+) -> tuple[Exchanges, list[Said]]:
     """A trace: frames in hexadecimal without checksum, each 30 ms after the one before or as told; `?`: damaged."""
-    made, now, said = traffic or Traffic({}), 0, []
+    made, now, said = traffic or Exchanges({}), 0, []
     for each in frames:
         gap_ms, text = each if isinstance(each, tuple) else (30, each)
         now += 1000 * gap_ms
@@ -124,7 +125,7 @@ def test_polls_have_their_times_and_words() -> None:
 
 def test_a_map_says_its_refusals_and_its_words() -> None:
     drive = MAPS["invt_chf"]
-    traffic, said = heard("01 03 30 00 00 01", "01 03 02 13 88", traffic=Traffic({1: drive}))
+    traffic, said = heard("01 03 30 00 00 01", "01 03 02 13 88", traffic=Exchanges({1: drive}))
     assert [each.role for each in said] == ["request", "reply"]
     shown = json.dumps(overheard.plain(Way(9600), traffic))
     assert '"words": [5000]' in shown
@@ -421,7 +422,7 @@ def test_the_session_of_the_page_is_what_a_person_sees(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv("COLUMNS", "100")
-    traffic, _ = heard(*SESSION, traffic=Traffic({1: MAPS["invt_chf"], 2: MAPS["jscc"]}))
+    traffic, _ = heard(*SESSION, traffic=Exchanges({1: MAPS["invt_chf"], 2: MAPS["jscc"]}))
     console.write(*overheard.tables(Way(19200), traffic))
     shown = PAGE.read_text(encoding="utf-8").partition("<!-- session:begin -->\n```\n")[2]
     assert capsys.readouterr().out == shown.partition("```\n<!-- session:end -->")[0]

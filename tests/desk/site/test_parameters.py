@@ -20,7 +20,7 @@ from driveblocks.cli import app
 from driveblocks.desk.bus import Bus
 from driveblocks.desk.clock import VirtualClock
 from driveblocks.desk.port import WirePort
-from driveblocks.desk.run.ask import Speech
+from driveblocks.desk.master import Speech
 from driveblocks.desk.site import saved
 from driveblocks.desk.site.reader import LostError, One, Reader, Reads
 from driveblocks.desk.site.register import rows, unread, value
@@ -33,7 +33,7 @@ from driveblocks.simulator.drive import SimulatedDrive
 MAPS = {each.drive.prefix: (each.path.stem, each.drive) for each in maps()}
 SKELETON = Path(__file__).parents[2] / "maps" / "example.yaml"
 EXAMPLE = load(SKELETON)
-SPEECH = Speech(ascii_mode=False, character_us=1000)
+SPEECH = Speech("rtu", 1000)
 
 
 def one(family: str, unit: int = 1) -> One:
@@ -93,13 +93,12 @@ def test_every_word_is_read_by_reads_alone(family: str, ascii_mode: bool, drop: 
     simulated = SimulatedDrive(drive, 1)
     bus, clock = Bus([simulated], 9600, 10, ascii_mode=ascii_mode), VirtualClock()
     bus.loss.drop, bus.loss.damage = drop, damage
-    reader = Reader(WirePort(bus, clock), clock, one(family), Speech(ascii_mode, 1042), 60_000_000)
+    reader = Reader(WirePort(bus, clock), clock, one(family), Speech("ascii" if ascii_mode else "rtu", 1042), 60_000_000)
     found = reads(reader)
-    assert list(found) == sorted(found)
     assert {*found} == {each.address for each in rows(drive)}
     assert all(isinstance(word, int) for word in found.values())
     status = drive.operation.standstill.all[0].register
-    assert found[status] == reads(Reader(WirePort(bus, clock), clock, one(family), Speech(ascii_mode, 1042), 0))[status]
+    assert found[status] == reads(Reader(WirePort(bus, clock), clock, one(family), Speech("ascii" if ascii_mode else "rtu", 1042), 0))[status]
     assert bool(bus.loss.dropped and bus.loss.damaged) == bool(drop)
 
 
@@ -171,21 +170,21 @@ def test_nothing_but_reads_passes() -> None:
 def test_a_unit_of_another_family_is_a_stranger(tmp_path: Path) -> None:
     clock, example = VirtualClock(), One("example", EXAMPLE, 1)
     said: dict[str | int, str] = {
-        "": "unit 1 is no EX100: 0031H is 0031H",
-        2: "unit 1 does not give the identity of EX100: refused 2",
+        "": "unit 1 is no EX100: 0031H is 0031H: 01 03 02 00 31 79 90",
+        2: "unit 1 does not give the identity of EX100: 01 83 02 C0 F1",
     }
     for fate, why in said.items():
         unit = Unit(clock, always(fate))
-        assert Reader(unit, clock, example, SPEECH, 0).stranger() == why
-        assert len(unit.sent) == 1
+        assert Reader(unit, clock, example, SPEECH, 0).stranger({}) == why
+        assert {frame[2:4] for frame in unit.sent} == {b"\0\x31"}
     with pytest.raises(LostError, match="unit 1 does not answer"):
-        Reader(Unit(clock, lambda _: "silent"), clock, example, SPEECH, 0).stranger()
+        Reader(Unit(clock, lambda _: "silent"), clock, example, SPEECH, 0).stranger({})
     bus = Bus([SimulatedDrive(EXAMPLE, 1)], 9600, 10)
-    assert Reader(WirePort(bus, clock), clock, example, SPEECH, 0).stranger() == ""
+    assert Reader(WirePort(bus, clock), clock, example, SPEECH, 0).stranger({}) == ""
     with simulated("jscc", "--tcp", ":0") as place:
         got = parameters("save", str(SKELETON), str(tmp_path / "a.csv"), "--tcp", place)
     assert (got.exit_code, [*tmp_path.iterdir()]) == (2, [])
-    assert got.stderr == "unit 1 is no EX100: 0031H is 0000H\n"
+    assert got.stderr.startswith("unit 1 is no EX100: 0031H is 0000H: ")
 
 
 def test_areas_with_forbidden_parameters_are_left_out() -> None:

@@ -4,10 +4,11 @@ import sys
 from collections import Counter
 
 from driveblocks.desk.port import Port
-from driveblocks.desk.run.guard import Guard
+from driveblocks.desk.run.guard import READS, Guard, is_stop
 from driveblocks.desk.run.mailbox import Mailbox
 from driveblocks.desk.run.wiring import DriveBlock, Wiring
 from driveblocks.maps.model import Drive
+from driveblocks.modbus.frame import opened
 from structured_text.engines.embedded import EmbeddedInstance, EmbeddedLibrary
 
 MOST_MS = 65535
@@ -39,6 +40,10 @@ class Controller:
         self._judged: set[tuple[int, str]] = set()
         self.dropped: Counter[str] = Counter()
         """Frames that the guard let not pass."""
+        self.met: set[int] = set()
+        """Units that have answered, or to which anything but a read or a stop was sent."""
+        self._asked = 0
+        """The unit that was asked last."""
         self._called_ms: int | None = None
         self._begun_us = 0
 
@@ -49,12 +54,15 @@ class Controller:
 
     def scan(self, now_us: int) -> None:
         """Scan once. Raises ScanError."""
-        self._mailbox.give(self._port.receive())
+        if some := self._port.receive():
+            self.met.add(self._asked)
+        self._mailbox.give(some)
         self._set("PORTERRORID", PORT_FAILS if self._port.error else 0)
         self._time(now_us)
         self.instance.scan((now_us - self._begun_us) * 1000)
         frame = self._mailbox.take()
         if frame and self._passes(frame):
+            self._asked = self._unit_of(frame)
             self._port.send(frame)
 
     def _time(self, now_us: int) -> None:
@@ -104,6 +112,18 @@ class Controller:
             if found.setdefault(unit, drive) is not drive:
                 doubted.add(unit)
         return {unit: drive for unit, drive in found.items() if unit not in doubted}
+
+    @property
+    def late_ms(self) -> int:
+        """How long the program lets its port keep a request and a reply back."""
+        path = self.wiring.pins["PORTLATEMS"]
+        return self.number(path or f"{self.wiring.line}.PortLateMs")
+
+    def _unit_of(self, frame: bytes) -> int:
+        body = opened("ascii", frame) or opened("rtu", frame) or b"\0\0"
+        if body[1] not in READS and not is_stop(body, self.units()):
+            self.met.add(body[0])
+        return body[0]
 
     def _passes(self, frame: bytes) -> bool:
         if self._free is None:

@@ -98,9 +98,9 @@ class Demo:
         if self._act is None and self._waiting:
             self._play(at_us)
         elif self._act is None:
-            self._session.ending.ask("the demonstration is over")
+            self._session.ending.ask("the demonstration is over", alone=True)
         elif at_us - self._begun_us > PATIENCE_US:
-            self._session.ending.ask("the demonstration has failed")
+            self._session.ending.ask("the demonstration has failed", alone=True)
 
     def _look(self, act: Act, at_us: int) -> None:
         """Whether the act has come true, and long enough."""

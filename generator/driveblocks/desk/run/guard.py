@@ -38,6 +38,13 @@ def writes(request: layout.Layout) -> tuple[int, int] | None:
     return address, words[0]
 
 
+def is_stop(body: bytes, units: Mapping[int, Drive]) -> bool:
+    """Whether a request, without checksum, is a stop of the drive at its unit address."""
+    request = layout.request(body)
+    drive = units.get(body[0])
+    return request is not None and drive is not None and writes(request) in set(stops(drive))
+
+
 class Guard:
     """Judges each frame by its bytes, and counts what it drops."""
 

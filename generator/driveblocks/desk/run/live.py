@@ -13,7 +13,7 @@ from driveblocks.desk.screen import Screen
 HELP = (
     "2                 toggle input 2; so does its name",
     "Hertz := 30.0     set a variable",
-    "q                 stop every drive and end, as Ctrl-C",
+    "q                 stop every drive and end, as Ctrl-C; a second Ctrl-C does not wait for them",
     "t 1, d 1, r 1     at unit 1: trip the drive, drop its supply, restore it (supply, cause and fault)",
     "trip OC 1         whatever a scenario may say; docs/simulate.md lists it",
 )
@@ -22,7 +22,7 @@ LOOK_S = 0.2
 SWITCH_S = 0.0005
 """Longest time for which drawing keeps the scan waiting."""
 GRACE_S = 145
-"""For the last stop: twice the longest StopWithinMs, and what is under way before it. No more than a net."""
+"""For the last stop where nobody is there: the longest StopWithinMs and a minute, and what is under way before it."""
 
 
 def run(
@@ -36,7 +36,7 @@ def run(
                 _listen_to(keyboard, session, end_of_input=end_of_input)
             _watch(session, screen, watch)
         except BaseException as error:  # a lost terminal must not leave drives running
-            session.ending.ask(f"the screen has failed: {error or type(error).__name__}")
+            session.ending.ask(f"the screen has failed: {error or type(error).__name__}", alone=True)
         finally:
             watch.join(GRACE_S)
         with suppress(OSError, ValueError):
@@ -73,7 +73,7 @@ def _listen_to(keyboard: Keyboard, session: Session, *, end_of_input: bool) -> N
 
     def ended() -> None:
         if end_of_input:
-            session.ending.ask("the input has ended")
+            session.ending.ask("the input has ended", alone=True)
 
     _beside(lambda: keyboard.serve(taken, ended))
 

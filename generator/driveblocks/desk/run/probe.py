@@ -2,13 +2,11 @@
 
 import threading
 from collections.abc import Sequence
-from pathlib import Path
 
 from driveblocks.desk.run import source, wiring
 from driveblocks.desk.run.controller import Controller
 from driveblocks.desk.words import Refused
 from driveblocks.maps.collection import Source as Map
-from structured_text import files
 from structured_text.engines.engine import BuildError, ScanError
 
 
@@ -50,14 +48,6 @@ def probed(loaded: source.Loaded, scan_us: int, limit_us: int) -> Controller:
     for error in errors:
         raise Refused(str(error)) from None
     return probe
-
-
-def text(path: Path) -> str:
-    """The text of a file. Raises Refused."""
-    try:
-        return files.text(path)
-    except files.BadFile as error:
-        raise Refused(str(error)) from None
 
 
 class _Nowhere:

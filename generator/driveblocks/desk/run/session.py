@@ -10,15 +10,15 @@ from dataclasses import dataclass, field
 from driveblocks.desk.clock import Clock
 from driveblocks.desk.ending import Ending
 from driveblocks.desk.keyboard import is_variable, typed
+from driveblocks.desk.master import Speech
 from driveblocks.desk.port import Port
 from driveblocks.desk.recorder import Recorder
-from driveblocks.desk.run.ask import Speech
 from driveblocks.desk.run.controller import Controller
 from driveblocks.desk.run.gate import Gate, GivenUp
 from driveblocks.desk.run.look import look
 from driveblocks.desk.run.pace import Pace
 from driveblocks.desk.run.play import Play
-from driveblocks.desk.run.stopper import LEAST_US, WITHIN_US, Stopper
+from driveblocks.desk.run.stopper import Stop, Stopper
 from driveblocks.desk.run.watchdog import Watchdog
 from driveblocks.desk.script import Setting
 from driveblocks.desk.seen import View
@@ -29,6 +29,10 @@ LOOK_US = 200_000
 """Between two looks for the screen."""
 USUAL_RATE, USUAL_BITS = 19200, 11
 """Of a line that was not called yet."""
+WITHIN_US = 10_000_000
+"""Time to standstill of a drive whose block does not give it."""
+TAKE_US = 65_000_000
+"""How long a port that takes nothing is waited for."""
 STUCK = "no stop sent: the port takes nothing, a call of the system for it does not come back"
 
 Step = Callable[[int], None]
@@ -138,7 +142,7 @@ class Session:
                 self._suspend()
             start = self._clock.now_us()
             if for_us is not None and start - self._begun_us >= for_us:
-                self.ending.ask(f"{for_us / 1e6:g} s are over")
+                self.ending.ask(f"{for_us / 1e6:g} s are over", alone=True)
                 break
             self.watchdog.begin()
             self._scan(start)
@@ -224,21 +228,33 @@ class Session:
             each.end()
         controller, told = self.controller if self.pace.scans else self.known, self.told
         names = _names(controller)
-        told.put(f"{self.ending.reason}: stopping every drive")
+        again = "" if self.ending.alone else "; Ctrl-C again gives them up"
+        told.put(f"{self.ending.reason}: stopping every drive{again}")
         if self._crash not in self.ending.reason:
             told.put(f"the program has failed, too: {self._crash}")
         if not free:
             told.put("the port takes nothing yet: the stop waits for it; Ctrl-C ends the waiting")
-            free = self._gate.take(_within_us(controller), lambda: self.ending.hurry)
+            free = self._gate.take(TAKE_US, lambda: self.ending.hurry)
         units = controller.units()
-        stopper = Stopper(self._gate, self._clock, self.ending, _speech(controller, units))
-        found = stopper.stop(units, _within_us(controller)) if free else dict.fromkeys(units, STUCK)
+        self._gate.late_ms = max(self._gate.late_ms, controller.late_ms)
+        stops = {unit: self._stop_of(unit, drive) for unit, drive in units.items()}
+        shown = {unit: ", ".join(some) for unit, some in names.items()}
+        if free:
+            Stopper(self._gate, self._clock, self.ending, _speech(controller, units), told.put, shown).stop(stops)
+        found = {unit: one.why if free else STUCK for unit, one in stops.items()}
         found |= dict.fromkeys(
             names.keys() - units.keys(), "no stop sent: its unit address is not its own, or not known"
         )
         unconfirmed = {f"{', '.join(names[unit])} (unit {unit})": why for unit, why in found.items() if why}
         stopped = tuple(", ".join(names[unit]) for unit, why in found.items() if not why)
         return Result(self.ending.reason, bool(self._crash), unconfirmed, stopped)
+
+    def _stop_of(self, unit: int, drive: Drive) -> Stop:
+        """A drive that is to be stopped, with the longest time that its blocks give it."""
+        program = self.controller if self.pace.scans else self.known
+        blocks = [each for each in program.wiring.drives if program.unit(each) == unit]
+        within = max((program.number(f"{each.path}.StopWithinMs") for each in blocks), default=0)
+        return Stop(drive, 1000 * within or WITHIN_US, waited_for=unit in self.controller.met)
 
 
 def _names(controller: Controller) -> dict[int, list[str]]:
@@ -249,18 +265,12 @@ def _names(controller: Controller) -> dict[int, list[str]]:
     return names
 
 
-def _within_us(controller: Controller) -> int:
-    """The longest time within which a motor of the program has to be at standstill."""
-    longest = max((controller.number(f"{each.path}.StopWithinMs") for each in controller.wiring.drives), default=0)
-    return max(LEAST_US, longest * 1000) if longest else WITHIN_US
-
-
 def _speech(controller: Controller, units: dict[int, Drive]) -> Speech:
     number, line = controller.number, controller.wiring.line
     silences = [each.serial.silence for each in units.values()]
     milliseconds = max((each.milliseconds or 0 for each in silences if each), default=0)
     bits, rate = number(f"{line}.CharacterBits") or USUAL_BITS, number(f"{line}.BitRate") or USUAL_RATE
-    return Speech(bool(number(f"{line}.Ascii")), 1e6 * bits / rate, int(1000 * milliseconds))
+    return Speech("ascii" if number(f"{line}.Ascii") else "rtu", 1e6 * bits / rate, int(1000 * milliseconds))
 
 
 def _halt() -> None:

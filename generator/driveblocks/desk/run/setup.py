@@ -29,6 +29,7 @@ from driveblocks.maps import catalog
 from driveblocks.maps.collection import Source as Map
 from driveblocks.maps.problem import MapError
 from driveblocks.simulator.drive import SimulatedDrive
+from structured_text import files
 from structured_text.visible import file_name
 
 LONGEST_SCAN_US = 60_000_000
@@ -86,7 +87,7 @@ class Setup:
 
     def _load(self) -> source.Loaded:
         name = file_name(catalog.shown(self._path))
-        return probe.compiled(name, probe.text(self._path), self._maps, self._options.name)
+        return probe.compiled(name, files.text(self._path), self._maps, self._options.name)
 
     def _line(self, pin: str) -> int:
         return self.probe.number(f"{self.probe.wiring.line}.{pin}") or USUAL.get(pin, 0)
@@ -220,8 +221,8 @@ class Setup:
             return []
         name = file_name(path)
         try:
-            return script.read(name, probe.text(path), controller.instance)
-        except script.ScriptError as error:
+            return script.read(name, files.text(path), controller.instance)
+        except (script.ScriptError, files.BadFile) as error:
             raise Refused(str(error)) from None
 
     # ------------------------------------------------------------ the run

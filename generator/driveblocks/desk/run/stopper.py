@@ -1,80 +1,146 @@
-"""The end of a run: every drive is stopped past the program, for a bounded time, and read for its standstill."""
+"""The end of a run: every drive is stopped past the program until it is proved at standstill."""
+
+from collections.abc import Callable, Collection, Mapping
+from dataclasses import dataclass, field
 
 from driveblocks.desk.clock import Clock
 from driveblocks.desk.ending import Ending
-from driveblocks.desk.run.ask import Asker, Last, Speech
+from driveblocks.desk.exchange import LATE_US
+from driveblocks.desk.master import REPLY_US, Last, Master, Speech
 from driveblocks.desk.run.gate import Gate
 from driveblocks.desk.run.guard import stop_request
 from driveblocks.maps.form import Span
 from driveblocks.maps.model import Drive
 from driveblocks.maps.pair import whole
 from driveblocks.maps.plan import read_request
-from driveblocks.modbus.layout import granted, reply_size
 from driveblocks.simulator.pattern import of_condition
 
-WITHIN_US = 10_000_000
-"""How long it is tried where no drive block gives the time to standstill."""
 LEAST_US = 2_000_000
 """How long it is tried at least: eight drives are not stopped and read in less."""
+ALONE_US = 60_000_000
+"""Beside the time to standstill, how long it is tried in all where nobody is there who could end it."""
+ROUNDS = 3
+"""How often a drive is stopped that has never answered, and was never told to run."""
+PATIENT = 4
+"""In each of so many rounds, a reply is waited for as long as a gateway may take; in the others other drives come."""
+SAY_US = 5_000_000
 SILENT = "no reply to the stop"
 
 
+@dataclass
+class Stop:
+    """One drive on its way to standstill; times in us."""
+
+    drive: Drive
+    within_us: int
+    """From the first stop that it has acknowledged."""
+    waited_for: bool = True
+    """It has answered before, or was told to run."""
+    why: str = SILENT
+    """What is not proved; empty at standstill."""
+    acknowledged_us: int | None = None
+    rounds: int = 0
+
+
+@dataclass
 class Stopper:
-    """Stops drives, and reads whether they are at standstill."""
+    """Stops drives on a port that was taken from the program, and reads whether they are at standstill."""
 
-    def __init__(self, gate: Gate, clock: Clock, ending: Ending, speech: Speech) -> None:
-        """On a port that was taken from the program."""
-        self._clock = clock
-        self._ending = ending
-        last = Last(gate.sent, gate.heard, gate.sent_us, gate.heard_us)
-        self._asker = Asker(gate.port, clock, speech, last, lambda: ending.hurry)
+    gate: Gate
+    clock: Clock
+    ending: Ending
+    speech: Speech
+    say: Callable[[str], None] = lambda _: None
+    """Tells a person which drives are waited for."""
+    names: Mapping[int, str] = field(default_factory=dict)
+    _said_us: int = 0
 
-    def stop(self, drives: dict[int, Drive], within_us: int = WITHIN_US) -> dict[int, str]:
-        """Stop them all; what cannot be confirmed of each, empty where its standstill is proved.
+    def stop(self, stops: Mapping[int, Stop]) -> None:
+        """Stop them all, by unit, until each is at standstill or must not be waited for any longer.
 
         A stop is sent to every drive before any is asked for its standstill.
         """
-        end = self._clock.now_us() + within_us
-        told = dict.fromkeys(drives, SILENT)
-        self._confirm([unit for unit, drive in drives.items() if self._stopped(unit, drive)], drives, told, end)
-        while (waiting := [unit for unit, why in told.items() if why]) and self._goes_on(end):
-            stopped = [unit for unit in waiting if self._goes_on(end) and self._stopped(unit, drives[unit])]
-            self._confirm(stopped, drives, told, end)
-        return told
+        gate, begun = self.gate, self.clock.now_us()
+        last = Last(gate.sent, gate.heard, gate.sent_us, gate.heard_us, REPLY_US + 1000 * gate.late_ms)
+        master = Master(gate.port, self.clock, self.speech)
+        master.hurries = lambda: self.ending.hurry
+        master.take_over(last)
+        self._said_us = begun
+        while waiting := [unit for unit, one in stops.items() if one.why and self._goes_on(one, begun)]:
+            stopped = [
+                unit for unit in waiting if not self._hurried(stops[unit]) and self._stopped(master, unit, stops[unit])
+            ]
+            for unit in stopped:
+                if not self.ending.hurry:
+                    self._confirm(master, unit, stops[unit])
+            self._tell(stops, begun)
 
-    def _confirm(self, stopped: list[int], drives: dict[int, Drive], told: dict[int, str], end: int) -> None:
-        """Read whether drives that have acknowledged their stop are at standstill."""
-        for unit in stopped:
-            if self._goes_on(end):
-                told[unit] = self._moves(unit, drives[unit])
-            elif told[unit] == SILENT:
-                told[unit] = "stop acknowledged, not read since"
+    def _hurried(self, one: Stop) -> bool:
+        return self.ending.hurry and one.rounds > 0
 
-    def _goes_on(self, end: int) -> bool:
-        return self._clock.now_us() < end and not self._ending.hurry
+    def _goes_on(self, one: Stop, begun: int) -> bool:
+        """Whether one that is not at standstill is still waited for."""
+        if self.ending.hurry:
+            return one.rounds == 0
+        if not one.waited_for and one.acknowledged_us is None:
+            return one.rounds < ROUNDS
+        if not self.ending.alone:
+            return True
+        now, since = self.clock.now_us(), one.acknowledged_us
+        within = max(LEAST_US, one.within_us)
+        return now < begun + within + ALONE_US and (since is None or now < since + within)
 
-    def _stopped(self, unit: int, drive: Drive) -> bool:
-        """Send a stop; whether the drive has acknowledged it."""
-        request = stop_request(unit, drive)
-        return self._asker.ask(request, 6) == request[:6]
+    def _patience_us(self, master: Master, one: Stop) -> int:
+        long = master.lates or one.rounds % PATIENT == 0
+        return (LATE_US if long else REPLY_US) + 1000 * self.gate.late_ms
 
-    def _moves(self, unit: int, drive: Drive) -> str:
-        """Why standstill is not proved; empty if it is."""
-        patterns = [of_condition(each) for each in drive.operation.standstill.all]
+    def _stopped(self, master: Master, unit: int, one: Stop) -> bool:
+        """Send a stop; whether the drive has acknowledged it, as far as the bytes say."""
+        master.said.anyone = one.drive
+        one.rounds += 1
+        reply = master.ask(stop_request(unit, one.drive), self._patience_us(master, one))
+        if reply.kind != "good":
+            one.why = "the stop was refused" if reply.kind == "refused" else one.why
+            return False
+        if master.hears_itself is False or reply.echo:
+            self._acknowledged(one)
+        return True
+
+    def _acknowledged(self, one: Stop) -> None:
+        if one.acknowledged_us is None:
+            one.acknowledged_us = self.clock.now_us()
+
+    def _confirm(self, master: Master, unit: int, one: Stop) -> None:
+        """Read whether it is at standstill. Between two reads it is stopped again: their replies may look the same."""
+        patterns = [of_condition(each) for each in one.drive.operation.standstill.all]
         words: dict[int, int] = {}
-        for value in sorted({whole(drive, each.register) for each in patterns}):
-            read = self._read(unit, drive, value)
-            if not read:
-                return "stop acknowledged, its status is not answered"
-            words |= zip(value, read, strict=True)
-        return (
-            ""
-            if all(each.holds(words[each.register]) for each in patterns)
-            else "stop acknowledged, its status does not prove standstill"
-        )
+        for at, value in enumerate(sorted({whole(one.drive, each.register) for each in patterns})):
+            if at and not self._stopped(master, unit, one):
+                return
+            request = read_request(unit, one.drive, Span(value[0], value[-1]))
+            reply = master.ask(request, self._patience_us(master, one))
+            if not reply.words:
+                silent = one.acknowledged_us is None and not reply.answered
+                one.why = SILENT if silent else "stop acknowledged, its status is not answered"
+                return
+            self._acknowledged(one)
+            words |= zip(value, reply.words, strict=True)
+        proved = all(each.holds(words[each.register]) for each in patterns)
+        one.why = "" if proved else "stop acknowledged, its status does not prove standstill"
 
-    def _read(self, unit: int, drive: Drive, value: tuple[int, ...]) -> tuple[int, ...]:
-        """The registers of a value, or a coil; none if they are not answered."""
-        request = read_request(unit, drive, Span(value[0], value[-1]))
-        reply = self._asker.ask(request, reply_size(request))
-        return granted(reply, "reply").values(len(value)) if reply else ()
+    def _tell(self, stops: Mapping[int, Stop], begun: int) -> None:
+        """Say now and then which drives are not at standstill, for how long, and what to do."""
+        now = self.clock.now_us()
+        if now - self._said_us < SAY_US:
+            return
+        self._said_us = now
+        for unit in waited(stops):
+            said = (
+                f"{self.names.get(unit, 'unit')} (unit {unit}): {stops[unit].why}, for {(now - begun) // 1_000_000} s"
+            )
+            self.say(f"{said}; look at its cable and supply, or stop it by hand; Ctrl-C gives up")
+
+
+def waited(stops: Mapping[int, Stop]) -> Collection[int]:
+    """Units of drives whose standstill is not proved."""
+    return [unit for unit, one in stops.items() if one.why]

@@ -9,15 +9,16 @@ from rich.progress import BarColumn, Progress, TextColumn
 from driveblocks import console
 from driveblocks.desk import port
 from driveblocks.desk.clock import Clock
+from driveblocks.desk.exchange import Exchanges
+from driveblocks.desk.frames import QUIET_US
+from driveblocks.desk.master import Master, Speech
 from driveblocks.desk.port import Port
-from driveblocks.desk.site.found import Heard, Way
+from driveblocks.desk.site.found import Way
 from driveblocks.desk.site.line import CHARACTER_BITS
 from driveblocks.desk.site.reader import Reads
 from driveblocks.desk.words import LOOPBACK, NO_PORT, is_port
 
 LOOK_US = 500
-GAP_US = 20_000
-"""A reply has ended when nothing has come for this time; an adapter may hand it over in pieces."""
 MOST_US = 1_000_000
 
 
@@ -29,6 +30,9 @@ class PortLine:
         self._opened, self._clock = opened, clock
         self._port: Port | None = None
         self._way: Way | None = None
+        self._master: Master | None = None
+        self._said = Exchanges({}, own=True)
+        """Everything that was said, at whatever rate."""
 
     def now_us(self) -> int:
         """The machine's time."""
@@ -44,39 +48,47 @@ class PortLine:
 
     def _open(self, way: Way) -> None:
         self._port, self._way = self._opened(way), way
+        self._master = None
 
     def close(self) -> None:
         """Give the port back."""
         if self._port is not None:
             self._port.close()
-        self._port = self._way = None
+        self._port = self._way = self._master = None
 
-    def exchange(self, request: bytes, timeout_us: int, expect: int = 0) -> Heard:
+    @property
+    def master(self) -> Master:
         """As `found.Line` says."""
-        if self._port is None or self._way is None:
+        port = self._working()
+        if self._way is None:
             raise OSError("no port is open")
-        reads = Reads(self._port)
-        if request:
-            reads.send(request)
-        sent = self.now_us() + int(len(request) * self._way.character_us)
-        data, first, last = b"", 0, sent
+        speech = Speech(self._way.mode, self._way.character_us)
+        if self._master is None:
+            self._master = Master(Reads(port), self._clock, speech, self._said)
+        self._master.speech = speech
+        return self._master
+
+    def _working(self) -> Port:
+        if self._port is None:
+            raise OSError("no port is open")
+        if self._port.error:
+            raise OSError(self._port.error)
+        return self._port
+
+    def hear(self, for_us: int) -> bytes:
+        """As `found.Line` says."""
+        port, data = self._working(), b""
+        begun = last = self.now_us()
         while True:
-            now, some = self.now_us(), reads.receive()
-            if reads.error:
-                raise OSError(reads.error)
+            now, some = self.now_us(), port.receive()
+            self._working()
             if some:
                 data, last = data + some, now
-                first = first or (now if data != request[: len(data)] else 0)
-            if _over(data, request, now - sent, now - last, timeout_us) or (expect and len(data) >= expect):
-                return Heard(data, max(0, first - sent - int((len(data) > 0) * self._way.character_us)))
+            if now >= begun + for_us and (not data or now >= begun + for_us + MOST_US):
+                return data
+            if data and now - last >= QUIET_US:
+                return data
             self._clock.sleep_until(now + LOOK_US)
-
-
-def _over(data: bytes, request: bytes, waited: int, silent: int, timeout_us: int) -> bool:
-    """Whether nothing more is waited for."""
-    if not data or data == request[: len(data)]:
-        return waited >= timeout_us
-    return silent >= GAP_US or waited >= timeout_us + MOST_US
 
 
 class Person:

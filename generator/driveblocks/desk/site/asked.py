@@ -18,6 +18,7 @@ from driveblocks.maps.model import Drive
 from driveblocks.maps.plan import reply_delay
 from driveblocks.maps.polls import Poll, polls
 from driveblocks.maps.problem import MapError
+from structured_text import files
 from structured_text.engines.embedded.library import EmbeddedInstance
 from structured_text.visible import file_name
 
@@ -114,7 +115,7 @@ def _program(words: Words, watchdog: int, wrong: list[str]) -> tuple[str, str, l
                     wrong.append(f"{option} is for named drives; a program says so itself")
             path = Path(words.line[0])
             name = file_name(catalog.shown(path))
-            return name, probe.text(path), source.known(named)
+            return name, files.text(path), source.known(named)
         if words.name:
             wrong.append("--program is for a file with several PROGRAMs")
         asked = words_of(words.line)
@@ -124,7 +125,7 @@ def _program(words: Words, watchdog: int, wrong: list[str]) -> tuple[str, str, l
         if len(drives) + len(words.device) > MOST_UNITS:
             wrong.append(f"{len(drives) + len(words.device)} units; a line has 1 to {MOST_UNITS}")
         return "line.st", _text(words, drives, watchdog), maps
-    except (catalog.UnknownDrive, MapError, Refused) as error:
+    except (catalog.UnknownDrive, MapError, Refused, files.BadFile) as error:
         wrong.append(str(error))
         return "", "", []
 

@@ -1,5 +1,6 @@
 """`driveblocks parameters`: a drive's words into a file, and two of drives and files beside each other."""
 
+import os
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -11,8 +12,8 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn
 from driveblocks import console
 from driveblocks.desk import port
 from driveblocks.desk.clock import RealClock
+from driveblocks.desk.master import Speech
 from driveblocks.desk.port import Port
-from driveblocks.desk.run.ask import Speech
 from driveblocks.desk.run.drives import named, words
 from driveblocks.desk.site import adapter
 from driveblocks.desk.site.found import Way
@@ -22,6 +23,7 @@ from driveblocks.desk.site.register import Row, rows, unread, value
 from driveblocks.desk.site.saved import Saved, Word, read, write
 from driveblocks.desk.words import Refused, time
 from driveblocks.maps import catalog
+from driveblocks.maps.collection import read as maps_of
 from driveblocks.maps.form import address_text
 from driveblocks.maps.load import load
 from driveblocks.maps.model import Drive
@@ -74,7 +76,7 @@ class Place:
         """Read a drive; `name` is the file of what was found before. Raises Refused, LostError."""
         clock, screen = RealClock(), console.terminal()
         columns = TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn()
-        speech = Speech(self.ascii, 1_000_000 * CHARACTER_BITS[self.form.upper()] / self.rate)
+        speech = Speech("ascii" if self.ascii else "rtu", 1_000_000 * CHARACTER_BITS[self.form.upper()] / self.rate)
         bars = Progress(*columns, console=screen, disable=not screen.is_terminal, transient=True)
         with self._opened(clock) as opened, bars as bar:
             task = bar.add_task(one.name, total=len(rows(one.drive)), completed=len(found))
@@ -84,7 +86,8 @@ class Place:
                 bar.update(task, completed=len(found), description=one.name)
 
             reader = Reader(opened, clock, one, speech, time("--patience", self.patience, 0, HIGHEST_PATIENCE_US))
-            if why := reader.stranger():
+            others = {each.path.stem: each.drive for each in maps_of(catalog.chosen(())) if each.path.stem != one.stem}
+            if why := reader.stranger(others):
                 raise Refused(why)
             if why := reader.changed(found):
                 raise Refused(f"{name} is of another drive, or it was changed since: {why}; name another file")
@@ -129,7 +132,7 @@ def save(word: str, path: Path, place: Place) -> str:
 
 def _begun(path: Path, one: One) -> dict[int, Word]:
     """What a file has already. Raises Refused where it is complete, or another drive's."""
-    if not path.exists():
+    if not os.path.lexists(path):
         return {}
     there = read(path)
     if (there.stem, there.unit) != (one.stem, one.unit):
@@ -168,7 +171,7 @@ def compare(
 
 
 def _is_file(word: str) -> bool:
-    return word.lower().endswith(".csv") or (Path(word).is_file() and not catalog.is_path(word))
+    return word.lower().endswith(".csv") or (os.path.isfile(word) and not catalog.is_path(word))  # noqa: PTH113 - Path.is_file raises for long names
 
 
 def _taken(one: One, place: Place) -> Saved:

@@ -6,10 +6,10 @@ from dataclasses import dataclass, replace
 from typing import Any, Protocol
 
 from driveblocks.desk.clock import Clock
+from driveblocks.desk.frames import Cutter
 from driveblocks.desk.port import CONNECT_S, EXCLUSIVE, MOST, refusals, takes
 from driveblocks.desk.site.found import Way
 from driveblocks.desk.site.line import RATES
-from driveblocks.desk.site.traffic import Cutter
 from driveblocks.modbus.envelope import mode_of
 from driveblocks.modbus.frame import Mode
 from driveblocks.modbus.layout import Dialect

@@ -5,6 +5,8 @@ from typing import Literal, Protocol
 
 from rich.console import RenderableType
 
+from driveblocks.desk.exchange import Quality
+from driveblocks.desk.master import Master
 from driveblocks.desk.site.line import CHARACTER_BITS
 
 Trouble = Literal[
@@ -34,14 +36,6 @@ class Way:
         return f"{self.rate} bit/s {self.form} {self.mode.upper()}"
 
 
-@dataclass(frozen=True)
-class Heard:
-    """All bytes that a line has given, an echo included, and the time from the end of the request to the first."""
-
-    data: bytes = b""
-    after_us: int = 0
-
-
 class Line(Protocol):
     """A line that one person speaks on, with its time."""
 
@@ -51,13 +45,12 @@ class Line(Protocol):
     def tune(self, way: Way) -> bool:
         """Take another rate, format and mode; whether the port can."""
 
-    def exchange(self, request: bytes, timeout_us: int, expect: int = 0) -> Heard:
-        """Send a frame and hear what comes; where it is empty, only listen.
+    @property
+    def master(self) -> Master:
+        """Who asks on it. Raises OSError for a port that has gone."""
 
-        The first byte is waited for until `timeout_us` after the end of the request; later ones until nothing has
-        come for 20 ms, or until one second has passed since the first, or until there are `expect` bytes, where
-        that is not 0. Raises OSError for a port that has gone.
-        """
+    def hear(self, for_us: int) -> bytes:
+        """What comes by itself: from its first byte on until nothing has come for 20 ms. Raises OSError."""
 
 
 class Asker(Protocol):
@@ -147,6 +140,10 @@ class Found:
     unit: int | None = None
     family: str = ""
     """Whether the drive is of the map's family: `identity`; without one `fits`, or `unknown` where it answers all."""
+    evidence: list[str] = field(default_factory=list)
+    """What speaks for the family and against it, each with its frame."""
+    quality: Quality | None = None
+    """Of the line, since the drive was found."""
     plate: str = ""
     faults: list[Fault] = field(default_factory=list)
     settings: list[Set] = field(default_factory=list)

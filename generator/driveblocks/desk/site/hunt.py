@@ -1,19 +1,17 @@
 """Finds a drive on a line that nobody else speaks on: it listens first, then reads, and never writes."""
 
-from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
+from driveblocks.desk.master import REPEAT_US, Reply
+from driveblocks.desk.site.family import span_of
 from driveblocks.desk.site.found import Asker, Fault, Found, Line, Trouble, Way
 from driveblocks.desk.site.line import RATES
-from driveblocks.desk.site.talk import LOOK, EndedError, Reply, Talk, ended
-from driveblocks.maps.form import Span, address_text
+from driveblocks.desk.site.talk import LOOK, Talk, ended
+from driveblocks.maps.form import Span
 from driveblocks.maps.model import Drive
-from driveblocks.maps.plan import plan
-from driveblocks.maps.polls import Poll, identity_read, polls
+from driveblocks.maps.polls import identity_read, polls
 from driveblocks.modbus.layout import Dialect
 from driveblocks.modbus.scan import pieces
-from driveblocks.simulator.pattern import of_condition
-from driveblocks.simulator.refusal import codes
 
 QUIET_US = 60_000_000
 """Silence before anything is sent."""
@@ -23,8 +21,6 @@ SOON_US, LATE_US = 200_000, 1_200_000
 """How long a reply is waited for: in the search, and where a unit is known."""
 TRIES = 3
 LIKELY = 4
-UNLISTED = 12
-"""Registers that no table lists: a unit that answers all of these answers everything."""
 WORST: tuple[Trouble, ...] = ("silent", "echo", "damaged", "half")
 """What a search without a drive has heard, from the least to what says most."""
 SAID: dict[Trouble, str] = {
@@ -44,17 +40,17 @@ def quiet(line: Line, ways: list[Way], asker: Asker, quiet_us: int = QUIET_US) -
                 (line.now_us() - begun) // 1_000_000, quiet_us // 1_000_000, f"listening at {way.rate} bit/s"
             )
             if line.tune(way):
-                here, heard = way, line.exchange(b"", min(1_000_000, begun + at * share - line.now_us())).data
+                here, heard = way, line.hear(min(1_000_000, begun + at * share - line.now_us()))
             else:
                 break
     if not heard and line.now_us() < begun + quiet_us:
-        heard = line.exchange(b"", begun + quiet_us - line.now_us()).data
+        heard = line.hear(begun + quiet_us - line.now_us())
     return _named(line, ways, here, heard) if heard else None
 
 
 def while_typed(line: Line, ways: list[Way]) -> Fault | None:
     """What came since the quiet minute, while a person read and typed; the port is as `quiet` has left it."""
-    heard = line.exchange(b"", 0).data
+    heard = line.hear(0)
     return _named(line, ways, _kinds(ways)[-1], heard) if heard else None
 
 
@@ -79,7 +75,7 @@ def _some(line: Line) -> bytes:
     """What comes within some seconds, or until there is a frame."""
     end, heard = line.now_us() + 3_000_000, b""
     while line.now_us() < end and not _decodes(heard):
-        heard += line.exchange(b"", end - line.now_us()).data
+        heard += line.hear(end - line.now_us())
     return heard
 
 
@@ -150,35 +146,45 @@ def find(talk: Talk, every: list[Way], addresses: list[int], asker: Asker, found
             here = replace(talk, way=way, unit=unit)
             here, reply = _once(here, before, span, patience, found)
             if reply.answered:
+                _alone(here, span)
                 found.way, found.unit = here.way, here.unit
                 return here
-            if reply.trouble in ("two", "foreign"):
-                raise ended(reply.trouble, f"address {unit}, {way}: more than one unit replies")
-            heard.add(reply.trouble or "silent")
+            if reply.kind == "foreign":
+                raise ended("foreign", f"address {unit}, {way}: unit {reply.unit} replies to what it was not asked")
+            heard |= {one for one in WORST if one == reply.kind}
             before = here.way
     worst = next((each for each in reversed(WORST) if each in heard), WORST[0])
     raise ended(worst, SAID[worst])
 
 
+def _alone(here: Talk, span: Span) -> None:
+    """Whether one unit alone has this address. Raises EndedError where a second reply comes to one request, again."""
+    master = here.line.master
+    for _ in range(2):
+        doubles = master.said.doubles
+        here.read(span)
+        master.rest(REPEAT_US)
+        if master.said.doubles == doubles:
+            return
+    raise ended("two", f"two replies come to each request to unit {here.unit}")
+
+
 def _once(here: Talk, before: Way, span: Span, patience: int, found: Found) -> tuple[Talk, Reply]:
     """A read of the search; where a late reply of another unit comes, that one is asked again, with patience."""
-    try:
-        reply = here.read(span, patience)
-        late = reply.unit if reply.trouble == "foreign" else None
-    except EndedError as end:
-        if end.fault.kind != "slow":
-            raise
-        late, reply = end.unit, Reply(trouble="silent")
+    late = next((each.layout.body[0] for each in here.line.master.quiet() if each.role == "late" and each.layout), None)
+    reply = here.read(span, patience) if late is None else Reply("silent")
+    if reply.kind in ("foreign", "late"):
+        late = reply.unit
     for way in dict.fromkeys((*here.framings, before)) if late is not None else ():
         there = replace(here, way=way, unit=late or 0)
         there.line.tune(way)
-        there.line.exchange(b"", LATE_US)
+        there.line.master.rest(LATE_US)
         again = there.read(span, LATE_US)
         if again.answered:
             found.faults.append(Fault("slow", f"the drive needs {again.after_us // 1000} ms to reply", LOOK["slow"]))
             return there, again
     here.line.tune(here.way)
-    if reply.trouble in ("damaged", "half"):
+    if reply.kind in ("damaged", "half", "unclear"):
         reply = _again(here, span, reply)
     return here, reply
 
@@ -194,103 +200,11 @@ def _again(talk: Talk, span: Span, first: Reply) -> Reply:
     """An answer that was spoilt: asked for again, with patience, until one is whole."""
     for _ in range(TRIES):
         reply = talk.read(span, LATE_US)
-        if reply.answered or reply.trouble == "two":
+        if reply.answered:
             return reply
     return first
 
 
 def first_read(drive: Drive) -> Span:
     """What a drive is looked for by: its identity, else the status that its block reads."""
-    return _span(identity_read(drive) or polls(drive)[0])
-
-
-# ------------------------------------------------------------ is it this family
-
-
-def recognise(talk: Talk, found: Found, others: Mapping[str, Drive]) -> None:
-    """Whether the drive is of the map's family. Raises EndedError where it is not."""
-    reply, name = steady(talk, first_read(talk.drive)), talk.drive.prefix
-    if talk.drive.identity is not None:
-        _identified(talk.drive, reply, first_read(talk.drive))
-        found.family = "identity"
-        return
-    every = polls(talk.drive)
-    refused = [each for each in every if not _reads(talk, each)]
-    spans = ", ".join(f"{each.words} words from {address_text(each.address)}" for each in refused)
-    rivals = [other for other, drive in others.items() if _is_rival(talk, drive)]
-    open_ = not refused and not _refuses_some(talk)
-    if rivals and not open_:
-        raise ended("family", f"unit {talk.unit} answers as {rivals[0]} does, and not as {name}")
-    if len(refused) == len(every):
-        raise ended("family", f"unit {talk.unit} gives nothing that {name} has: {spans}")
-    if strange := list(_strange(talk)):
-        raise ended("family", f"what unit {talk.unit} gives is no {name}: {'; '.join(strange)}")
-    if refused:
-        found.faults.append(Fault("refused", f"unit {talk.unit} refuses what the map lists: {spans}", LOOK["refused"]))
-    found.family = "unknown" if open_ else "fits"
-
-
-def _is_rival(talk: Talk, drive: Drive) -> bool:
-    """Whether a unit answers what another family's block reads, where the own map lists nothing."""
-    own = plan(talk.drive).readable
-    apart = [each for each in polls(drive) if not any(span.overlaps(_span(each)) for span in own)]
-    return bool(apart) and all(_reads(replace(talk, drive=drive), each) for each in apart)
-
-
-def _refuses_some(talk: Talk) -> bool:
-    """Whether a unit refuses any register that its map does not list: one that answers all has no family to be seen."""
-    return any(not _reads(talk, Poll(3, each, 1, fast=True)) for each in unlisted(talk.drive)[:UNLISTED])
-
-
-def unlisted(drive: Drive) -> list[int]:
-    """Registers that come after the tables of a map, and are in none of its tables and areas."""
-    taken = [*plan(drive).readable, *plan(drive).writable, *(each.addresses for each in drive.areas)]
-    after = (each.last + 1 for each in plan(drive).readable)
-    return [each for each in after if each < 0xFFFF and not any(each in span for span in taken)]
-
-
-def _span(poll: Poll) -> Span:
-    return Span(poll.address, poll.address + poll.words - 1)
-
-
-def steady(talk: Talk, span: Span) -> Reply:
-    """A read, tried again where the line spoils it or the drive is busy. Raises EndedError where it never comes."""
-    busy, reply = codes(talk.drive)["busy"], Reply()
-    for _ in range(2 * TRIES):
-        reply = talk.read(span, LATE_US)
-        if reply.trouble is None and (reply.refused is None or reply.refused != busy):
-            return reply
-        if reply.trouble in ("two", "family", "foreign"):
-            break
-    kind = "lost" if reply.trouble in ("silent", "echo") else reply.trouble or "refused"
-    said = {"lost": "does not answer any more", "two": "is several units", "family": "answers in another form"}
-    raise ended(kind, f"unit {talk.unit} {said.get(kind, 'gives no good answer')}")
-
-
-def _reads(talk: Talk, poll: Poll) -> bool:
-    """Whether a read is answered by words; silence to one of several reads counts as a refusal."""
-    try:
-        return bool(steady(talk, _span(poll)).words)
-    except EndedError as end:
-        if end.fault.kind in ("family", "lost"):
-            return False
-        raise
-
-
-def _identified(drive: Drive, reply: Reply, span: Span) -> None:
-    if not reply.words:
-        raise ended("identity", f"the drive does not give the identity of {drive.prefix}")
-    for pattern in map(of_condition, drive.identity.all if drive.identity else ()):
-        word = reply.words[pattern.register - span.first]
-        if not pattern.holds(word):
-            raise ended("identity", f"this is no {drive.prefix}: {address_text(pattern.register)} is {word:04X}H")
-
-
-def _strange(talk: Talk) -> Iterator[str]:
-    """Words of the status that the manual does not list."""
-    for poll in polls(talk.drive):
-        span = _span(poll)
-        for address, word in zip(span, steady(talk, span).words if poll.fast else (), strict=False):
-            row = talk.drive.register_at(address)
-            if row and row.values and not row.masks and word not in {each.value for each in row.values}:
-                yield f"{address_text(address)} is {word}, which its manual does not list"
+    return span_of(identity_read(drive) or polls(drive)[0])

@@ -145,11 +145,11 @@ def write(path: Path, about: About, found: Found) -> None:
 
     Raises OSError, and MapError where the file was made unreadable meanwhile; it is then as it was.
     """
-    report, old = Report(file_name(path)), _END.sub("", source.read(path)) if path.exists() else HEAD
-    new = replaced(old, about.label, text(about, found))
+    report, there = Report(file_name(path)), path.exists()
+    new = replaced(_END.sub("", source.read(path)) if there else HEAD, about.label, text(about, found))
     nodes.parse(new, report)
     report.raise_if_any()
-    files.put(path, new)
+    files.put(path, new.replace("\n", "\r\n") if there and b"\r\n" in files.data(path) else new)
 
 
 def copied(path: Path) -> Path:
@@ -170,16 +170,15 @@ def try_out(path: Path) -> None:
 
 def replaced(old: str, label: str, entry: str) -> str:
     """A file's text with an entry in the place of the label's old one, or after all; its comments are kept."""
-    end = "\r\n" if "\r\n" in old else "\n"
-    lines = old.replace("\r\n", "\n").splitlines()
+    lines = old.splitlines()
     root = nodes.parse("\n".join((*lines, "")), Report(""))
     begins = {key: at.at[0] - 1 for key, (at, _) in root.entries.items()} if isinstance(root, nodes.Entries) else {}
     first, made = begins.get(label), entry.splitlines()
     if first is None:
-        return end.join((*lines, *[""] * bool(lines), *made, ""))
+        return "\n".join((*lines, *[""] * bool(lines), *made, ""))
     after = min((each for each in begins.values() if each > first), default=len(lines))
     last, notes = _taken(lines[first:after])
-    return end.join((*lines[:first], made[0], *notes, *made[1:], *lines[first + last :], ""))
+    return "\n".join((*lines[:first], made[0], *notes, *made[1:], *lines[first + last :], ""))
 
 
 def _taken(lines: list[str]) -> tuple[int, list[str]]:

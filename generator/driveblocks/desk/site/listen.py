@@ -3,6 +3,8 @@
 import csv
 import datetime
 import io
+import os
+import re
 import signal
 from collections.abc import Iterator, Sequence
 from contextlib import ExitStack, contextmanager, suppress
@@ -15,18 +17,20 @@ from rich.live import Live
 
 from driveblocks import console
 from driveblocks.desk.clock import Clock, RealClock
+from driveblocks.desk.exchange import Exchanges
+from driveblocks.desk.frames import Cutter, Frame
 from driveblocks.desk.port import reason
 from driveblocks.desk.site import adapter, overheard
 from driveblocks.desk.site import ear as ears
 from driveblocks.desk.site.ear import Ear, SerialEar, TcpEar, find, ways
 from driveblocks.desk.site.found import Way
-from driveblocks.desk.site.traffic import Cutter, Frame, Traffic
 from driveblocks.desk.words import Refused, time
 from driveblocks.maps import catalog
 from driveblocks.maps.load import load
 from driveblocks.maps.model import Drive
 from driveblocks.maps.problem import MapError
 from driveblocks.modbus.envelope import mode_of
+from structured_text import files
 from structured_text.visible import file_name
 
 SHOWN_US = 500_000
@@ -57,13 +61,13 @@ class Words:
         """What does not go together."""
         yield from adapter.wrong(self.port, self.tcp, self.rate, self.form, who="the line")
         for option, path in (("--log", self.log), ("--csv", self.csv)):
-            if path is not None and path.exists():
+            if path is not None and os.path.lexists(path):
                 yield f"{option} {file_name(path)} is there already; name another file"
         if self.log is not None and self.log == self.csv:
             yield "--log and --csv name one file; name two"
 
 
-def run(words: Words, clock: Clock | None = None) -> tuple[Way | None, Traffic, str, list[str]]:
+def run(words: Words, clock: Clock | None = None) -> tuple[Way | None, Exchanges, str, list[str]]:
     """Listen until a person or --for ends it. Raises Refused.
 
     How the line is spoken on, what was heard, why it ended early, and which files are not complete.
@@ -76,7 +80,7 @@ def run(words: Words, clock: Clock | None = None) -> tuple[Way | None, Traffic, 
     drives = _drives(words.maps, wrong)
     if wrong:
         raise Refused("\n".join(wrong))
-    clock, traffic = clock or RealClock(), Traffic(*drives)
+    clock, traffic = clock or RealClock(), Exchanges(*drives)
     with ExitStack() as stack:
         ear = _opened(words)
         stack.callback(ear.close)
@@ -107,7 +111,7 @@ def _drives(names: Sequence[str], wrong: list[str]) -> tuple[dict[int, Drive], D
         except (catalog.UnknownDrive, MapError) as error:
             wrong.append(str(error))
             continue
-        if at and unit.isdecimal() and 1 <= int(unit) <= 255 and int(unit) not in found:
+        if at and re.fullmatch("[0-9]{1,3}", unit) and 1 <= int(unit) <= 255 and int(unit) not in found:
             found[int(unit)] = drive
         elif at:
             wrong.append(f"{word}: write MAP@UNIT, each unit of 1 to 255 once")
@@ -138,15 +142,15 @@ class File:
     def __init__(self, path: Path) -> None:
         """Raises OSError."""
         self._name, self.wrong = file_name(path), ""
-        self._file = path.open("xb", buffering=0)
+        self._file = files.opened(path, new=True)
         self.close = self._file.close
 
     def write(self, text: str) -> None:
         """A line, or nothing of it."""
-        whole, data = self._file.tell(), text.encode()
+        whole = self._file.tell()
         try:
-            while data and not self.wrong:
-                data = data[self._file.write(data) :]
+            if not self.wrong:
+                self._file.add(text.encode())
         except OSError as error:
             self.wrong = f"{self._name} is not complete: {reason(error)}"
             with suppress(OSError):
@@ -214,7 +218,7 @@ def _hang_up() -> Iterator[None]:
 class Session:
     """A line that is listened to, and what is shown and kept of it."""
 
-    def __init__(self, ear: Ear, clock: Clock, traffic: Traffic, files: Files) -> None:
+    def __init__(self, ear: Ear, clock: Clock, traffic: Exchanges, files: Files) -> None:
         """At its beginning."""
         self._ear, self._clock, self._files = ear, clock, files
         self.traffic = traffic

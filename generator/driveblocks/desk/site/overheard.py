@@ -6,11 +6,11 @@ from typing import Any
 from rich.console import RenderableType
 from rich.text import Text
 
+from driveblocks.desk.exchange import ECHOED, Exchanges, Key, Poll, Role, Said, Unit
 from driveblocks.desk.explain.meaning import held
 from driveblocks.desk.explain.page import means
 from driveblocks.desk.site.ear import FORMS
 from driveblocks.desk.site.found import Way
-from driveblocks.desk.site.traffic import ECHOED, Key, Poll, Role, Said, Traffic, Unit
 from driveblocks.maps.form import Span, address_text, span_text
 from driveblocks.modbus.envelope import mode_of
 from driveblocks.modbus.request import WRITES
@@ -33,7 +33,7 @@ UNKNOWN = (
 )
 
 
-def tables(way: Way, traffic: Traffic) -> Iterator[RenderableType]:
+def tables(way: Way, traffic: Exchanges) -> Iterator[RenderableType]:
     """All that a person reads: the line, a table per unit, what is odd, and what nobody can know."""
     yield facts(*_line(way, traffic))
     for number, unit in sorted(traffic.units.items()):
@@ -47,7 +47,7 @@ def tables(way: Way, traffic: Traffic) -> Iterator[RenderableType]:
     yield Text(f"Cannot be known: {UNKNOWN}.", style="dim")
 
 
-def odd(traffic: Traffic) -> Iterator[tuple[str, str]]:
+def odd(traffic: Exchanges) -> Iterator[tuple[str, str]]:
     """What does not happen as it should: what it is called, and a sentence."""
     for number, unit in sorted(traffic.units.items()):
         found = _odd(number, unit, traffic)
@@ -63,7 +63,7 @@ def odd(traffic: Traffic) -> Iterator[tuple[str, str]]:
         yield "damaged", f"{share:.1f} % of all bytes made no good frame, {_times(traffic.damaged)}"
 
 
-def _odd(number: int, unit: Unit, traffic: Traffic) -> Iterator[tuple[str, str]]:
+def _odd(number: int, unit: Unit, traffic: Exchanges) -> Iterator[tuple[str, str]]:
     polls = unit.polls.values()
     # a late reply to a write of one register looks like a request without a reply
     blurred = ECHOED if unit.odd.total() or unit.unclear else ()
@@ -90,7 +90,7 @@ def _odd(number: int, unit: Unit, traffic: Traffic) -> Iterator[tuple[str, str]]
             yield "refused", f"unit {number} refused {_what(key)} {poll.refusals} of {poll.count} times"
 
 
-def _line(way: Way, traffic: Traffic) -> Iterator[tuple[str, object]]:
+def _line(way: Way, traffic: Exchanges) -> Iterator[tuple[str, object]]:
     heard_us = traffic.end_us - traffic.begin_us
     yield "line", f"{way.rate} bit/s, {FORMS.get(way.form, way.form)}, {way.mode.upper()}"
     yield "heard", f"{traffic.frames} frames, {traffic.requests} of them requests, in {heard_us / 1e6:.1f} s"
@@ -101,7 +101,7 @@ def _line(way: Way, traffic: Traffic) -> Iterator[tuple[str, object]]:
         yield "broadcast", f"{count} x {function:02X}H at {address_text(address)}"
 
 
-def _unit(number: int, unit: Unit, traffic: Traffic) -> RenderableType:
+def _unit(number: int, unit: Unit, traffic: Exchanges) -> RenderableType:
     numbers = "every ms", "requests", "replies", "reply ms"
     made = table("does", "registers", *numbers, "last", numbers=numbers, wide=("last",))
     for key, poll in sorted(unit.polls.items()):
@@ -114,7 +114,7 @@ def _unit(number: int, unit: Unit, traffic: Traffic) -> RenderableType:
     return made
 
 
-def _words(number: int, key: Key, poll: Poll, traffic: Traffic) -> Iterator[str]:
+def _words(number: int, key: Key, poll: Poll, traffic: Exchanges) -> Iterator[str]:
     """The last words; with a map, a line for each register that it knows."""
     drive = traffic.drive(number)
     for place, word in enumerate(poll.words):
@@ -157,7 +157,7 @@ def row(said: Said, begin_us: int) -> list[str]:
     return [seconds, said.role, str(unit), *map(str, known), words, said.frame.data.hex(" ").upper()]
 
 
-def plain(way: Way | None, traffic: Traffic) -> dict[str, Any]:
+def plain(way: Way | None, traffic: Exchanges) -> dict[str, Any]:
     """The same for scripts: times in ms."""
     return {
         "rate": way and way.rate, "format": way and FORMS.get(way.form, way.form), "mode": way and way.mode,

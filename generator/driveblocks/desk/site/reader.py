@@ -1,26 +1,31 @@
 """Reads the words of a drive, and nothing else: in runs, each run that is refused in halves."""
 
-from collections.abc import Callable
+from collections import Counter
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 
 from driveblocks.desk.clock import Clock
+from driveblocks.desk.exchange import LATE_US, Exchanges
+from driveblocks.desk.master import Master, Reply, Speech
 from driveblocks.desk.port import Port
-from driveblocks.desk.run.ask import Asker, Speech
 from driveblocks.desk.run.guard import Guard
+from driveblocks.desk.site.family import judge, span_of
 from driveblocks.desk.site.register import rows, spans
 from driveblocks.desk.site.saved import Word
 from driveblocks.maps.form import Span, address_text
 from driveblocks.maps.model import Drive
-from driveblocks.maps.plan import dialect, most, read_request
-from driveblocks.maps.polls import identity_read
-from driveblocks.modbus.layout import reply_size, take
-from driveblocks.simulator.pattern import of_condition
+from driveblocks.maps.pair import whole
+from driveblocks.maps.plan import most, read_request
+from driveblocks.maps.polls import identity_read, polls
 from driveblocks.simulator.refusal import codes
 
 TRIES = 5
 BUSY_US = 200_000
 PAUSE_US = 500_000
 LISTEN_US = 1_000_000
+BELIEVED_US = 300_000
+"""After a word, as long as a repeater may take to send a reply once more."""
+STRAYS = "two units with one address, a repeater, another master, or a gateway that is slower than 1.5 s"
 SILENT = "no reply"
 
 
@@ -40,6 +45,10 @@ class One:
 
 class LostError(Exception):
     """The drive does not answer any more, or never has."""
+
+
+class StraysError(LostError):
+    """Replies come that nobody has asked for: no word can be believed."""
 
 
 class Reads:
@@ -62,40 +71,111 @@ class Reads:
 
 
 class Reader:
-    """Reads one drive; `patience_us`: how long it waits for a drive that has fallen silent."""
+    """Reads one drive; `patience_us`: how long it waits for a drive that has fallen silent.
+
+    A word is believed only when so much time has passed after its reply that a reply which nobody had asked for would
+    have shown that replies belong to other requests; where one comes, all words of that time are read again.
+    """
 
     def __init__(self, port: Port, clock: Clock, one: One, speech: Speech, patience_us: int) -> None:
         """On a line that nobody else speaks on."""
-        self._port, self._clock, self._drive, self._unit = Reads(port), clock, one.drive, one.unit
         told = one.drive.serial.silence
         silence = int(1000 * told.milliseconds) if told and told.milliseconds else 0
-        self._asker = Asker(self._port, clock, replace(speech, silence_us=silence))
-        self._most = most(one.drive, "ascii" if speech.ascii_mode else "rtu").read
-        self._dialect, self._busy = dialect(one.drive), codes(one.drive)["busy"]
+        self._clock, self._drive, self._unit = clock, one.drive, one.unit
+        self.master = Master(
+            Reads(port), clock, replace(speech, silence_us=silence), Exchanges({}, one.drive, own=True)
+        )
+        self._most = most(one.drive, speech.mode).read
+        self._busy = codes(one.drive)["busy"]
         self._patience_us = patience_us
         self._good: Span | None = None
         """A run that the drive has answered."""
+        self._asked = 0
+        """Words of the last run that was asked for."""
+        self._fresh: list[tuple[int, Span, dict[int, Word]]] = []
+        """What is not believed yet: when it came, its run and its words."""
+        self._strays = 0
+        self.again = Counter[Span]()
+        """Runs that were read again because of replies that nobody had asked for."""
 
     def read(self, words: dict[int, Word], keep: Callable[[], None], wait: Callable[[str], None]) -> None:
-        """Add every word that is missing; `keep` is called after each answer, `wait` while the drive is silent.
+        """Add every word that is missing; `keep` is called after words were added, `wait` while the drive is silent.
 
-        Raises LostError.
+        Raises LostError, and StraysError where replies come that nobody has asked for, again and again.
         """
-        left = spans(self._drive, [row.address for row in rows(self._drive) if row.address not in words], self._most)[
-            ::-1
-        ]
-        while left:
-            span = left.pop()
-            answer = self._answer(span)
-            if answer == SILENT and self._answers(wait):
-                answer = self._answer(span)  # the line was lost, or the drive answers all but this
-            if isinstance(answer, str) and len(span) > 1:
-                middle = span.first + len(span) // 2
-                left += [Span(middle, span.last), Span(span.first, middle - 1)]
-                continue
-            found = dict.fromkeys(span, answer) if isinstance(answer, str) else dict(zip(span, answer, strict=True))
+        missing = [row.address for row in rows(self._drive) if row.address not in words]
+        left = spans(self._drive, missing, self._most)[::-1]
+        try:
+            self._read(left, words, keep, wait)
+        except LostError:
+            if self.master.strays == self._strays and self._believe(words):
+                keep()
+            raise
+
+    def _read(
+        self, left: list[Span], words: dict[int, Word], keep: Callable[[], None], wait: Callable[[str], None]
+    ) -> None:
+        while left or self._fresh:
+            if not left:
+                self.master.rest(self._fresh[-1][0] + self._believed_us - self._clock.now_us())
+            else:
+                left += self._take(self._next(left), wait)
+            left += self._strayed()
+            if self._believe(words):
+                keep()
+
+    @property
+    def _believed_us(self) -> int:
+        """How long after a word a stray reply would have come."""
+        return BELIEVED_US + 2 * self.master.longest_us
+
+    def _next(self, left: list[Span]) -> Span:
+        """The next run: not as long as the last one, so that no reply can be taken for the other's."""
+        at = next((at for at in range(len(left) - 1, -1, -1) if len(left[at]) != self._asked), None)
+        if at is not None:
+            return left.pop(at)
+        span = left.pop()
+        last = whole(self._drive, span.last)[0]
+        if last > span.first:
+            left.append(Span(last, span.last))
+            return Span(span.first, last - 1)
+        if self._good is not None and len(self._good) != len(span):
+            self._answer(self._good)
+        return span
+
+    def _take(self, span: Span, wait: Callable[[str], None]) -> list[Span]:
+        """Read a run; what is left of it to be read."""
+        answer = self._answer(span)
+        if answer == SILENT and self._answers(wait):
+            answer = self._answer(span)  # the line was lost, or the drive answers all but this
+        if isinstance(answer, str) and len(span) > 1:
+            middle = span.first + len(span) // 2
+            return [Span(middle, span.last), Span(span.first, middle - 1)]
+        found = dict.fromkeys(span, answer) if isinstance(answer, str) else dict(zip(span, answer, strict=True))
+        self._fresh.append((self._clock.now_us(), span, dict(found)))
+        return []
+
+    def _strayed(self) -> list[Span]:
+        """The runs that have to be read again, since a reply came that nobody had asked for. Raises StraysError."""
+        if self.master.strays == self._strays:
+            return []
+        self.master.rest(LATE_US)
+        self._strays = self.master.strays
+        spans = [span for _, span, _ in self._fresh]
+        self._fresh = []
+        self.again.update(spans)
+        if any(count > 1 for count in self.again.values()):
+            raise StraysError(f"replies came that nobody had asked for, twice while the same was read: {STRAYS}")
+        return spans
+
+    def _believe(self, words: dict[int, Word]) -> bool:
+        """Take over what is old enough; whether there was any."""
+        until = self._clock.now_us() - self._believed_us
+        old = [each for each in self._fresh if each[0] <= until]
+        for _, _, found in old:
             words.update(found)
-            keep()
+        self._fresh = self._fresh[len(old) :]
+        return bool(old)
 
     def changed(self, words: dict[int, Word]) -> str:
         """Which parameter is not as it was read before; empty where none differs. Raises LostError."""
@@ -109,21 +189,19 @@ class Reader:
                 return f"{address_text(address)} was {words[address]} and is {again[address]}"
         return ""
 
-    def stranger(self) -> str:
+    def stranger(self, others: Mapping[str, Drive]) -> str:
         """What shows that the unit is another family's; empty where nothing does. Raises LostError."""
-        read = identity_read(self._drive)
-        if read is None or self._drive.identity is None:
-            return ""
-        answer = self._answer(Span(read.address, read.address + read.words - 1))
-        if answer == SILENT:
-            raise LostError(f"unit {self._unit} does not answer")
-        if isinstance(answer, str):
-            return f"unit {self._unit} does not give the identity of {self._drive.prefix}: {answer}"
-        for pattern in map(of_condition, self._drive.identity.all):
-            word = answer[pattern.register - read.address]
-            if not pattern.holds(word):
-                return f"unit {self._unit} is no {self._drive.prefix}: {address_text(pattern.register)} is {word:04X}H"
-        return ""
+
+        def ask(drive: Drive, body: bytes) -> Reply:
+            self.master.said.anyone = drive
+            return self._patient(body)
+
+        judged = judge(ask, self._drive, self._unit, others)
+        self.master.said.anyone = self._drive
+        read = identity_read(self._drive) or polls(self._drive)[0]
+        if judged.family == "other" and self._answer(span_of(read)) == SILENT:
+            raise LostError(self.master.error or f"unit {self._unit} does not answer")
+        return judged.why
 
     def _answers(self, wait: Callable[[str], None]) -> bool:
         """Wait until a run that was answered before is answered again. Raises LostError."""
@@ -131,32 +209,32 @@ class Reader:
         while self._good is None or self._answer(self._good) == SILENT:
             waited = self._clock.now_us() - begun
             if self._good is None or waited >= self._patience_us:
-                raise LostError(self._port.error or f"unit {self._unit} does not answer")
-            wait(f"{self._port.error or 'no reply'}; waiting for {(self._patience_us - waited) // 1_000_000} s more")
+                raise LostError(self.master.error or f"unit {self._unit} does not answer")
+            wait(f"{self.master.error or 'no reply'}; waiting for {(self._patience_us - waited) // 1_000_000} s more")
             self._clock.sleep_until(self._clock.now_us() + PAUSE_US)
         return True
 
     def _answer(self, span: Span) -> tuple[int, ...] | str:
         """The words of a run; why there are none."""
-        body, count = read_request(self._unit, self._drive, span), len(span)
-        dialect, size = self._dialect, reply_size(body)
-        lengths = [size, 3] + [size + 1] * dialect.two_byte_count + [6] * (dialect.address is not None)
-        functions = (body[1] + dialect.added & 0xFF, *([dialect.function] if dialect.function is not None else []))
-        answer: tuple[int, ...] | str = SILENT
+        self._asked = len(span)
+        reply = self._patient(read_request(self._unit, self._drive, span))
+        if not reply.words and reply.refused is None:
+            return SILENT
+        self._good = span
+        return reply.words or f"refused {reply.refused}"
+
+    def _patient(self, body: bytes) -> Reply:
+        """A request, again where the line spoils the reply or the drive is busy."""
+        reply = Reply("silent")
         for _ in range(TRIES):
-            reply = self._asker.ask(body, *lengths, functions=functions)
-            found = take(reply, "reply", dialect) if reply else None
-            if found is not None and found.refusal:
-                answer = f"refused {found.number('reason')}"
-                if found.number("reason") == self._busy:
-                    self._clock.sleep_until(self._clock.now_us() + BUSY_US)
-                    continue
-            elif found is not None and (carried := found.values(count)):
-                answer = carried
-            if answer != SILENT:
-                self._good = span
-                return answer
-        return answer
+            reply = self.master.ask(body)
+            if reply.refused is not None and reply.refused == self._busy:
+                self._clock.sleep_until(self._clock.now_us() + BUSY_US)
+            elif reply.words or reply.answered:
+                break
+            elif reply.kind == "unclear":
+                self.master.rest(LATE_US)
+        return reply
 
 
 def heard(port: Port, clock: Clock) -> bool:

@@ -1,17 +1,30 @@
 """The first hour on site, step by step: what is skipped is said, and what was found is kept after each step."""
 
-from collections.abc import Callable, Collection, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Callable, Collection, Iterator, Mapping
+from contextlib import suppress
+from dataclasses import dataclass, field, replace
 
+from driveblocks.desk.exchange import Quality, quality
+from driveblocks.desk.master import Reply
 from driveblocks.desk.site import hunt, steps
-from driveblocks.desk.site.found import Asker, Fault, Found, Line, Way
-from driveblocks.desk.site.talk import LOOK, EndedError, Talk
+from driveblocks.desk.site.family import judge
+from driveblocks.desk.site.found import Asker, Fault, Found, Line, Trouble, Way
+from driveblocks.desk.site.talk import LOOK, EndedError, Talk, ended
 from driveblocks.maps.model import Drive
 
 STEPS = ("quiet", "find", "keypad", "measure", "gaps")
 SKIPPABLE = ("plate", "keypad", "measure", "gaps")
 WORD = "alone"
 """What a person types when the PLC is disconnected and the drive is alone."""
+
+
+LINE: dict[str, tuple[Trouble, str]] = {
+    "damaged": ("damaged", "the line spoils {}"),
+    "late": ("slow", "replies came late to {}"),
+    "doubled": ("two", "replies came twice, or to what nobody had asked, in {}"),
+    "silent": ("silent", "no reply came to {}"),
+}
+"""What each figure of a line is called where it is too large."""
 
 
 @dataclass(frozen=True)
@@ -41,13 +54,14 @@ def commission(line: Line, asker: Asker, wish: Wish, keep: Callable[[Found], Non
     `keep` is called as soon as a drive was recognised, after each step and each answer, and at the end.
     """
     found = Found(skipped=[each for each in SKIPPABLE if each in wish.skip])
-    known = False
+    known, talk, before = False, None, None
     try:
         talk = _found(line, asker, wish, found)
-        hunt.recognise(talk, found, wish.others)
+        before = quality(talk.line.master.said)
+        _recognise(talk, found, wish.others)
         known = True
         found.done.append("find")
-        _rest(talk, asker, wish, found, lambda: keep(found))
+        _rest(talk, asker, wish, found, lambda: keep(_weighed(talk, found, before)))
     except EndedError as end:
         found.faults.append(end.fault)
         found.ended = end.fault.text
@@ -58,9 +72,48 @@ def commission(line: Line, asker: Asker, wish: Wish, keep: Callable[[Found], Non
     except OSError as error:
         found.faults.append(Fault("lost", f"the port does not work any more: {error.strerror or error}", LOOK["lost"]))
         found.ended = found.faults[-1].text
-    if known:
-        keep(found)
+    if known and before is not None and talk is not None:
+        keep(_weighed(talk, found, before))
+        found.faults += _troubles(found)
     return found
+
+
+def _weighed(talk: Talk, found: Found, before: Quality) -> Found:
+    """With the line's quality since the drive was found."""
+    with suppress(OSError):
+        found.quality = quality(talk.line.master.said) - before
+    return found
+
+
+def _troubles(found: Found) -> Iterator[Fault]:
+    """What the figures of the line say is wrong with it."""
+    figures = found.quality or Quality()
+    for name in figures.troubles:
+        share = f"{getattr(figures, name)} of {figures.exchanges} exchanges ({100 * figures.share(name):.1f} %)"
+        kind, text = LINE[name]
+        yield Fault(kind, f"{text.format(share)}", LOOK[kind])
+
+
+def _recognise(talk: Talk, found: Found, others: Mapping[str, Drive]) -> None:
+    """Whether the drive is of the map's family. Raises EndedError where it is not."""
+
+    def ask(drive: Drive, body: bytes) -> Reply:
+        try:
+            return replace(talk, drive=drive).patient(body)
+        except EndedError as end:
+            if end.fault.kind == "lost":
+                return Reply("silent")
+            raise
+
+    judged = judge(ask, talk.drive, talk.unit, others)
+    found.evidence = judged.evidence
+    if judged.family == "other":
+        talk.steady(hunt.first_read(talk.drive))  # a unit that has gone is of no other family
+        raise ended("identity" if talk.drive.identity else "family", judged.why)
+    if judged.refused:
+        said = f"unit {talk.unit} refuses what the map lists: {judged.refused}"
+        found.faults.append(Fault("refused", said, LOOK["refused"]))
+    found.family = judged.family
 
 
 def _found(line: Line, asker: Asker, wish: Wish, found: Found) -> Talk:

@@ -6,8 +6,10 @@ from dataclasses import replace
 from decimal import Decimal, InvalidOperation
 from typing import get_args
 
+from driveblocks.desk.exchange import LATE_US
+from driveblocks.desk.site.family import unlisted
 from driveblocks.desk.site.found import Answer, Asker, Found, Measured, Set, Tens
-from driveblocks.desk.site.hunt import LATE_US, first_read, steady, unlisted
+from driveblocks.desk.site.hunt import first_read
 from driveblocks.desk.site.register import rows, spans
 from driveblocks.desk.site.talk import EndedError, Talk, ended
 from driveblocks.maps.form import Span, address_text
@@ -19,8 +21,8 @@ READS = 200
 GAPS_MS = (2, 5, 10, 20)
 """Pauses after a reply that are tried; an adapter may lengthen each."""
 GAP_READS = 10
-LOST = 5
-"""Reads in a row without an answer."""
+LOST = 10
+"""Reads in a row to which no byte comes."""
 LEAST_COUNTS = 50
 """A word below it does not show its scale: a person's reading is too coarse."""
 ASKED = 3
@@ -94,11 +96,11 @@ def _conditions(setting: Setting) -> str:
 def _words(talk: Talk, span: Span) -> tuple[int, ...]:
     """Words of a register, none where the drive refuses it or says nothing to it. Raises EndedError for a lost line."""
     try:
-        return steady(talk, span).words
+        return talk.steady(span).words
     except EndedError as end:
-        if end.fault.kind not in ("lost", "family"):
+        if end.fault.kind != "lost":
             raise
-    steady(talk, first_read(talk.drive))
+    talk.steady(first_read(talk.drive))
     return ()
 
 
@@ -110,11 +112,11 @@ def measure(talk: Talk, asker: Asker, reads: int = READS) -> Measured:
     span, longest, lost = first_read(talk.drive), 0, 0
     for at in range(reads):
         asker.progress(at, reads, "reply time")
-        reply = talk.read(span, LATE_US)
-        lost = 0 if reply.answered else lost + 1
+        reply = talk.read(span)
+        lost = 0 if reply.data else lost + 1
         if lost == LOST:
             raise ended("lost", f"unit {talk.unit} does not answer any more, after {at} of {reads} reads")
-        longest = max(longest, reply.after_us if reply.answered else 0)
+        longest = max(longest, reply.after_us if reply.kind == "good" else 0)
     gap = next((ms for ms in GAPS_MS if _holds(talk, ms)), None)
     return Measured(reads, -(-longest // 1000), gap, _longest_read(talk), _unlisted(talk))
 
@@ -123,9 +125,9 @@ def _holds(talk: Talk, gap_ms: int) -> bool:
     """Whether the drive answers each of some reads that begin so soon after its reply."""
     span = first_read(talk.drive)
     try:
-        return all(talk.read(span, LATE_US, 1000 * gap_ms).answered for _ in range(GAP_READS))
+        return all(talk.read(span, None, 1000 * gap_ms).answered for _ in range(GAP_READS))
     except EndedError:  # an adapter was still handing over the reply
-        talk.line.exchange(b"", LATE_US)
+        talk.line.master.rest(LATE_US)
         return False
 
 
@@ -142,7 +144,7 @@ def _unlisted(talk: Talk) -> str:
     address = next(iter(unlisted(talk.drive)), None)
     if address is None:
         return "not tried"
-    reply = talk.read(Span(address, address), LATE_US)
+    reply = talk.read(Span(address, address))
     return f"{address_text(address)}: {'words' if reply.words else 'refused' if reply.answered else 'no reply'}"
 
 

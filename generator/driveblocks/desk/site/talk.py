@@ -1,20 +1,15 @@
-"""Reads on a line that nobody else should speak on, and what the bytes that come say of the line."""
+"""Reads on a line that nobody else should speak on, and what ends the steps there."""
 
 from dataclasses import dataclass, replace
 
+from driveblocks.desk.exchange import LATE_US, Said
+from driveblocks.desk.master import Reply
 from driveblocks.desk.site.found import Fault, Line, Trouble, Way
 from driveblocks.maps.form import Span
 from driveblocks.maps.model import Drive
-from driveblocks.maps.plan import dialect, read_request
-from driveblocks.modbus.frame import opened, seal
-from driveblocks.modbus.layout import Dialect, reply_size, take
-from driveblocks.modbus.scan import pieces
+from driveblocks.maps.plan import read_request
+from driveblocks.simulator.refusal import codes
 
-CHECKSUM = 2
-"""Bytes of a CRC."""
-
-SETTLE_US = 20_000
-"""Silence before each request, at least."""
 LOOK = {
     "silent": "drive switched on? A and B swapped? its keypad: address, bit rate, format, RTU or ASCII",
     "half": "termination at both ends, a common wire, another device with this address; an adapter that switches "
@@ -24,14 +19,22 @@ LOOK = {
     "beside the line",
     "family": "the plate: is it this family? Take its own map; nothing is written to this drive",
     "identity": "the plate: is it this family? Nothing is written to this drive",
-    "two": "disconnect all drives but one, and give each an address of its own at the keypad",
+    "two": "disconnect all drives but one, and give each an address of its own at the keypad; a repeater on the way",
     "foreign": "disconnect the PLC, and every other master",
     "noise": "nothing is sent: look at A and B, bias resistors, shield, motor cables beside the line",
-    "slow": "the drive's own reply delay at the keypad; an adapter or a server on the way",
+    "slow": "the drive's own reply delay at the keypad; an adapter or a gateway on the way (PortLateMs)",
     "refused": "the edition of the manual; the firmware of the drive",
     "lost": "the adapter and its plug, the drive's supply",
     "bound": "name --unit, --rate or --format as the keypad has them",
 }
+
+
+TRIES = 12
+"""A line that spoils every second exchange still lets one of these pass."""
+
+
+SILENT = 3
+"""How often one is asked that says nothing, on a line that spoils nothing."""
 
 
 class EndedError(Exception):
@@ -49,26 +52,6 @@ def ended(kind: Trouble, text: str) -> EndedError:
 
 
 @dataclass(frozen=True)
-class Reply:
-    """What came to a read: words, a refusal, or a trouble."""
-
-    words: tuple[int, ...] = ()
-    refused: int | None = None
-    trouble: Trouble | None = None
-    unit: int | None = None
-    """Whose frame it is."""
-    after_us: int = 0
-    echo: bool = False
-    strange: bool = False
-    """A good frame of the unit that has not the form of a reply of this family."""
-
-    @property
-    def answered(self) -> bool:
-        """Whether a unit is there."""
-        return bool(self.words) or self.refused is not None or self.strange
-
-
-@dataclass(frozen=True)
 class Talk:
     """A line, a drive's dialect, and a unit on it; it reads and nothing else."""
 
@@ -77,19 +60,28 @@ class Talk:
     way: Way
     unit: int = 1
 
-    def read(self, span: Span, timeout_us: int, settle_us: int | None = None) -> Reply:
-        """A read, once, after silence. Raises EndedError where somebody else speaks."""
-        way, spoken = self.way, dialect(self.drive)
-        body = read_request(self.unit, self.drive, span)
-        request = seal(way.mode, body)
-        self._silence(max(SETTLE_US, int(4 * way.character_us)) if settle_us is None else settle_us)
-        whole = len(seal(way.mode, bytes(reply_size(body))))
-        heard = self.line.exchange(request, timeout_us, 0 if settle_us is None else whole)
-        echo = heard.data.startswith(request)
-        found = judged(heard.data.removeprefix(request), way, body, spoken, echo=echo)
-        if found.trouble == "damaged" and (late := self.stray(heard.data)).answered:
-            found = Reply(trouble="foreign", unit=late.unit)
-        return replace(found, after_us=heard.after_us, echo=echo)
+    def read(self, span: Span, patience_us: int | None = None, pause_us: int | None = None) -> Reply:
+        """A read, once, after silence. Raises EndedError where somebody else speaks, OSError where there is no port."""
+        return self.ask(read_request(self.unit, self.drive, span), patience_us, pause_us)
+
+    def ask(self, body: bytes, patience_us: int | None = None, pause_us: int | None = None) -> Reply:
+        """The same with any request that reads."""
+        master = self.line.master
+        master.said.anyone = self.drive
+        unlike = master.said.unlike
+        self._look(master.quiet(pause_us))
+        reply = master.ask(body, patience_us, pause_us)
+        if master.error:
+            raise OSError(master.error)
+        if master.said.unlike > unlike:
+            raise ended("two", f"unit {self.unit} gives two different replies to one request")
+        return reply
+
+    def _look(self, heard: list[Said]) -> None:
+        """What was said before we ask: nobody else may speak."""
+        for one in heard:
+            if one.role == "unasked":
+                raise ended("foreign", "somebody else speaks on this line")
 
     @property
     def framings(self) -> list[Way]:
@@ -97,56 +89,26 @@ class Talk:
         modes = self.drive.serial.mode.modes
         return list(dict.fromkeys((self.way, *(replace(self.way, mode=mode) for mode in modes))))
 
-    def stray(self, data: bytes) -> Reply:
-        """What bytes are that nobody has just asked for: a late reply, in any framing, or nothing."""
-        read = (judged(data, way, b"", dialect(self.drive), echo=False) for way in self.framings)
-        return next((each for each in read if each.answered), Reply())
+    def steady(self, span: Span) -> Reply:
+        """A read, tried again where the line spoils the reply or the drive is busy. Raises EndedError."""
+        return self.patient(read_request(self.unit, self.drive, span))
 
-    def _silence(self, wait_us: int) -> None:
-        if stray := self.line.exchange(b"", wait_us).data:
-            late = self.stray(stray)
-            if late.answered:
-                said = "a reply came so late that nobody waited for it any more"
-                raise EndedError(Fault("slow", said, LOOK["slow"]), late.unit)
-            raise ended("foreign", "somebody else speaks on this line, or noise does")
-
-
-def judged(data: bytes, way: Way, body: bytes, spoken: Dialect, *, echo: bool) -> Reply:
-    """What the bytes after a request are; an empty `body`: a reply to any request."""
-    if not data:
-        return Reply(trouble="echo" if echo else "silent")
-    frames, spoilt = _frames(data, way, spoken)
-    if len(frames) > 1:
-        return Reply(trouble="two")
-    if not frames or spoilt:
-        return Reply(trouble="half" if not frames and _begun(data, way, body) else "damaged")
-    return _meant(frames[0], body, spoken)
-
-
-def _meant(frame: bytes, body: bytes, spoken: Dialect) -> Reply:
-    """What one good frame is."""
-    layout, asked = take(frame, "reply", spoken), int.from_bytes(body[4:6], "big")
-    if body and frame[0] != body[0]:
-        return Reply(trouble="foreign", unit=frame[0])
-    if layout.refusal:
-        return Reply(refused=layout.number("reason") or 0, unit=frame[0])
-    if not body:
-        return Reply(layout.words, unit=frame[0])
-    if layout.function != body[1] or not layout.fits or not layout.values(asked):
-        return Reply(trouble="family", unit=frame[0], strange=True)
-    return Reply(layout.values(asked), unit=frame[0])
-
-
-def _frames(data: bytes, way: Way, spoken: Dialect) -> tuple[list[bytes], bool]:
-    """The bodies of good frames, and whether there is anything beside them."""
-    cut = pieces(data, spoken)
-    good = [opened(way.mode, each.data) for each in cut if each.good]
-    found = [each for each in good if each is not None]
-    return found, len(found) != len(cut)
-
-
-def _begun(data: bytes, way: Way, body: bytes) -> bool:
-    """Whether bytes are the beginning of a reply that is cut off."""
-    if way.mode == "ascii":
-        return data[:1] == b":" and not data.endswith(b"\n")
-    return bool(body) and data[:2] == body[:2] and len(data) < reply_size(body) + CHECKSUM
+    def patient(self, body: bytes) -> Reply:
+        """The same with any request that reads."""
+        busy, replies = codes(self.drive)["busy"], list[Reply]()
+        for _ in range(TRIES):
+            replies.append(reply := self.ask(body))
+            if reply.answered and (reply.refused is None or reply.refused != busy):
+                return reply
+            if reply.kind == "foreign":
+                break
+            if reply.kind == "unclear":
+                self.line.master.rest(LATE_US)
+            if len(replies) == SILENT and not any(each.data for each in replies) and not self.line.master.said.damaged:
+                break
+        if all(each.kind in ("silent", "echo") for each in replies):
+            raise ended("lost", f"unit {self.unit} does not answer any more")
+        for kind in ("foreign", "half", "damaged"):
+            if any(each.kind == kind for each in replies):
+                raise ended(kind, f"unit {self.unit} gives no good answer")
+        raise ended("slow", f"unit {self.unit} gives no answer in its time")
