@@ -102,6 +102,7 @@ def test_the_page_says_what_a_family_needs_and_shows_of_both_structures() -> Non
     assert (said["SN300G5", "KeepWord"], said["CHF", "KeepWord"]) == ("16#00FC of 0000H", "no use: no bit is left over")
     shown = {(family, cells[0].strip("`")): cells[-1] for family in FAMILIES for cells in rows(family, "### Diagnosis")}
     assert shown["JSCC", "OutputPowerKW"] == "always 0: the drive does not show it"
+    assert shown["JSCC", "OutputPowerValid"] == "always FALSE"
     assert shown["SN300G5", "DcBusVoltageValid"] == "FALSE without `DcVoltageScale`"
     assert [shown[family, "CanCoastStop"] for family in ("CHF", "JSCC", "SN300G5")] == ["TRUE", "FALSE", "FALSE"]
 
@@ -282,7 +283,8 @@ def test_a_system_whose_text_has_no_ladder_has_a_picture_of_it_in_three_steps() 
         for platform in ("siemens", "twincat"):
             drawn = [each.text for each in picture(f"{family}_Drive_ladder_{platform}.svg").iter()]
             assert {"HardStopClosed", "StartButton", "WasPressed", "NotStop", f"{family}_Drive"} <= set(drawn)
-            assert f"{family}_Drive_ladder_{platform}.svg), from top to bottom, 3. " in page(family)
+            assert f"[this picture]({family}_Drive_ladder_{platform}.svg)\n" in page(family)
+        assert page(family).count("2. draw the networks of the picture, from top to bottom, 3. ") == 1
 
 
 def test_no_text_of_a_block_has_an_apostrophe() -> None:

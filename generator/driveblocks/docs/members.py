@@ -104,7 +104,7 @@ def _diagnosis(drive: Drive) -> Iterator[tuple[str, str]]:
         says = "" if shows in found else "always 0: the drive does not show it"
         valid = f"FALSE without `{setting}`" if shows in found and not found[shows].scale else ""
         yield f"{name}{unit}", f"from {found[shows].word.address_text}" if shows in found else says
-        yield pin_of(shows).valid, valid or says.replace("0", "FALSE")
+        yield pin_of(shows).valid, valid or ("always FALSE" if says else "")
     for name, shows in _AT_FAULT.items():
         if shows not in found:
             yield name, "always 0: the drive does not show it"

@@ -246,6 +246,7 @@ def _page(drive: Drive, checked: Checked, values: Mapping[str, Any], own: Own, p
         drives=DRIVES,
         unlisted=[rate for rate in RATES if listed and rate not in listed],
         bytes=block.type.size if block.type else 0,
+        data=cost.data(block),
         slot=checked.types["MB_SLOT"].size,
         states_said=[(name, states.SAYS[number]) for number, (name, _) in enumerate(NAMES)],
         hard_stop=HARD_STOP,
