@@ -287,6 +287,16 @@ def test_a_system_whose_text_has_no_ladder_has_a_picture_of_it_in_three_steps() 
         assert page(family).count("2. draw the networks of the picture, from top to bottom, 3. ") == 1
 
 
+def test_a_system_alone_has_its_own_picture_of_the_ladder_and_no_other() -> None:
+    chf = drives()["CHF"]
+    files = [*generic(LANGUAGES), *library_of("chf", chf, LANGUAGES)]
+    made = documents(files, [chf], targets=["twincat"])
+    assert [name for name in made if "_ladder" in name] == ["docs/CHF_Drive_ladder_twincat.svg"]
+    assert re.findall(r"CHF_Drive_ladder\w*\.svg|CHF_Ladder", made["docs/CHF_Drive.md"]) == [
+        "CHF_Drive_ladder_twincat.svg"
+    ]
+
+
 def test_no_text_of_a_block_has_an_apostrophe() -> None:
     """`$'` is right, and two readers of SCL and one compiler stop at it."""
     assert [each.path for each in sources() if "$'" in each.text] == []

@@ -102,9 +102,10 @@ def pages(drives: list[Drive], checked: Checked, own: Mapping[str, Own], platfor
         found[f"{FOLDER}/{name}.md"] = _page(drive, checked, values, own.get(drive.prefix, Own()), platforms)
         found[f"{FOLDER}/{name}.svg"] = ladder.picture(name, "Motor", inputs, in_outs, outputs)
         found[f"{FOLDER}/{name}_timing.svg"] = timing.picture(drive, name)
-        found[f"{FOLDER}/{name}_ladder.svg"] = _network(CANONICAL, drive, blocks)
-        for platform in (one for one in platforms if PLATFORMS[one].drawn):
-            found[f"{FOLDER}/{name}_ladder_{platform}.svg"] = _network(platform, drive, blocks)
+        drawn = [one for one in platforms if PLATFORMS[one].drawn]
+        found |= {f"{FOLDER}/{name}_ladder_{one}.svg": _network(one, drive, blocks) for one in drawn}
+        if not drawn or drawn != platforms:
+            found[f"{FOLDER}/{name}_ladder.svg"] = _network(CANONICAL, drive, blocks)
     return found
 
 
