@@ -41,8 +41,9 @@ def run() -> None:
 def save(drive: str, file: Path, **words: Any) -> None:
     """Read every register that the map lists into a file, with names and units.
 
-    The file is whole at any moment, and says how far it came. The exit status is 0 when it is complete, 1 when the
-    drive has fallen silent or a person has ended it, 2 for bad input.
+    The file is whole at any moment, and says how far it came. The exit status is 0 when every register was read, 1
+    when the drive refuses some or has fallen silent, replies come that nobody asked for, or a person has ended it,
+    2 for bad input or a drive of another family.
 
     Example: driveblocks parameters save chf@1 pump.csv --port /dev/ttyUSB0
     """
@@ -51,12 +52,14 @@ def save(drive: str, file: Path, **words: Any) -> None:
     from driveblocks.desk.words import Refused
 
     try:
-        click.echo(drives.save(drive, file, drives.Place(**words)))
+        told, complete = drives.save(drive, file, drives.Place(**words))
     except Refused as refused:
         refuse(str(refused))
     except LostError as lost:
         click.echo(str(lost), err=True)
         sys.exit(1)
+    click.echo(told)
+    sys.exit(0 if complete else 1)
 
 
 @run.command()

@@ -403,6 +403,15 @@ class Quality:
         return self.exchanges >= ENOUGH and lost <= MOST_LOST and not self.troubles
 
     @property
+    def verdict(self) -> str:
+        """What may be said of the line."""
+        if self.troubles:
+            return f"too much is {' and '.join(self.troubles)}"
+        if self.is_good:
+            return "a good line"
+        return f"called good after {ENOUGH} exchanges at least" if self.exchanges < ENOUGH else "a fair line"
+
+    @property
     def troubles(self) -> tuple[str, ...]:
         """Which of `PARTS` are more than a line of this length explains."""
         return tuple(name for name, most in MOST.items() if getattr(self, name) > max(1, most * self.exchanges))

@@ -23,12 +23,12 @@ from tests.desk.site.test_commission import MAPS
 from driveblocks import console
 from driveblocks.cli import app
 from driveblocks.desk.clock import VirtualClock
+from driveblocks.desk.exchange import Exchanges, Said
 from driveblocks.desk.explain.paste import read
+from driveblocks.desk.frames import Cutter, Frame
 from driveblocks.desk.port import EXCLUSIVE
 from driveblocks.desk.site import ear, listen, overheard
 from driveblocks.desk.site.found import Way
-from driveblocks.desk.exchange import Said, Exchanges
-from driveblocks.desk.frames import Cutter, Frame
 from driveblocks.modbus.frame import seal
 from driveblocks.modbus.layout import Dialect
 

@@ -19,8 +19,8 @@ from tests.desk.run.desk import maps
 from driveblocks.cli import app
 from driveblocks.desk.bus import Bus
 from driveblocks.desk.clock import VirtualClock
-from driveblocks.desk.port import WirePort
 from driveblocks.desk.master import Speech
+from driveblocks.desk.port import WirePort
 from driveblocks.desk.site import saved
 from driveblocks.desk.site.reader import LostError, One, Reader, Reads
 from driveblocks.desk.site.register import rows, unread, value
@@ -93,12 +93,19 @@ def test_every_word_is_read_by_reads_alone(family: str, ascii_mode: bool, drop: 
     simulated = SimulatedDrive(drive, 1)
     bus, clock = Bus([simulated], 9600, 10, ascii_mode=ascii_mode), VirtualClock()
     bus.loss.drop, bus.loss.damage = drop, damage
-    reader = Reader(WirePort(bus, clock), clock, one(family), Speech("ascii" if ascii_mode else "rtu", 1042), 60_000_000)
+    reader = Reader(
+        WirePort(bus, clock), clock, one(family), Speech("ascii" if ascii_mode else "rtu", 1042), 60_000_000
+    )
     found = reads(reader)
     assert {*found} == {each.address for each in rows(drive)}
     assert all(isinstance(word, int) for word in found.values())
     status = drive.operation.standstill.all[0].register
-    assert found[status] == reads(Reader(WirePort(bus, clock), clock, one(family), Speech("ascii" if ascii_mode else "rtu", 1042), 0))[status]
+    assert (
+        found[status]
+        == reads(Reader(WirePort(bus, clock), clock, one(family), Speech("ascii" if ascii_mode else "rtu", 1042), 0))[
+            status
+        ]
+    )
     assert bool(bus.loss.dropped and bus.loss.damaged) == bool(drop)
 
 
@@ -371,13 +378,19 @@ def test_all_mistakes_are_reported_at_once(words: tuple[str, ...], said: list[st
     assert [line[: len(each)] for line, each in zip(got.stderr.splitlines(), said, strict=True)] == said
 
 
+MISSING = "322 were not compared, for want of a word on either side: 0101H, 0102H, 0103H, 0104H, ..."
+
+
 def test_what_only_one_file_has_is_not_taken_for_equal(pump: Path, tmp_path: Path) -> None:
     other = tmp_path / "fan.csv"
     saved.write(other, "shuen_sn300g5", MAPS["SN300G5"][1], 4, {0x100: 1, 0x101: 2, 0x20: 4000, 0x0F: 0})
     got = parameters("compare", str(pump), str(other))
-    assert (got.exit_code, got.stdout) == (1, "1 parameters are equal\n322 were not read on both sides\n")
+    assert (got.exit_code, got.stdout) == (1, f"1 parameters are equal, of 323 in the map\n{MISSING}\n")
     got = parameters("compare", str(pump), str(other), "--all")
-    assert got.stdout.splitlines()[-2:] == ["1 of 3 registers differ", "385 were not read on both sides"]
+    assert got.stdout.splitlines()[-2:] == [
+        "1 of 3 registers differ, of 388 in the map",
+        "385 were not compared, for want of a word on either side: 0000H, 0001H, 0002H, 0003H, ...",
+    ]
     (row,) = [line for line in got.stdout.splitlines() if line.startswith("U1-01")]
     assert row.split()[-4:] == ["50.00", "Hz", "40.00", "Hz"]
 
@@ -387,13 +400,16 @@ def test_what_neither_side_has_given_is_not_taken_for_equal(tmp_path: Path) -> N
     for path in paths:
         saved.write(path, stem, drive, 1, {row.address: "no reply" for row in rows(drive)} | {0x100: 1})
     got = parameters("compare", *map(str, paths))
-    assert (got.exit_code, got.stdout) == (1, "1 parameters are equal\n322 were not read on both sides\n")
+    assert (got.exit_code, got.stdout) == (1, f"1 parameters are equal, of 323 in the map\n{MISSING}\n")
     saved.write(paths[1], stem, drive, 1, {row.address: "refused 2" for row in rows(drive)} | {0x100: 2})
     got = parameters("compare", *map(str, paths))
     assert got.exit_code == 1
-    assert got.stdout.splitlines()[-2:] == ["1 of 1 parameters differ", "322 were not read on both sides"]
+    assert got.stdout.splitlines()[-2:] == ["1 of 1 parameters differ, of 323 in the map", *MISSING.split("\n")]
     saved.write(paths[1], stem, drive, 1, {row.address: 7 for row in rows(drive)})
-    assert parameters("compare", *map(str, paths)).stdout.splitlines()[-1] == "323 of 323 parameters differ"
+    assert (
+        parameters("compare", *map(str, paths)).stdout.splitlines()[-1]
+        == "323 of 323 parameters differ, of 323 in the map"
+    )
 
 
 def test_what_the_map_does_not_list_now_is_not_passed_over(tmp_path: Path) -> None:
@@ -407,14 +423,14 @@ def test_what_the_map_does_not_list_now_is_not_passed_over(tmp_path: Path) -> No
         got = parameters("compare", *map(str, paths))
         return got.exit_code, " ".join(got.stdout.split()).splitlines()
 
-    says = "323 parameters are equal 1 that the map does not list now differ, or were not read on both sides: FFF0H"
+    says = "323 parameters are equal, of 323 in the map 1 that the map does not list now differ, or were not read on both sides: FFF0H"
     row, gone, silent = "FFF0H,,x,7,7,,\n", "FFF0H,,x,8,8,,\n", "FFF0H,,x,no reply,,,\n"
-    assert compared(row, row) == (0, ["323 parameters are equal"])
+    assert compared(row, row) == (0, ["323 parameters are equal, of 323 in the map"])
     for left, right in ((row, gone), (row, ""), ("", row), (silent, silent), (silent, row)):
         assert compared(left, right) == (1, [says])
     status, (said,) = compared("".join(f"FF{at:02X}H,,x,{at},,,\n" for at in range(9)), "")
     assert status == 1
-    assert said.startswith("323 parameters are equal 9 that")
+    assert said.startswith("323 parameters are equal, of 323 in the map 9 that")
     assert said.endswith(", FF07H, ...")
 
 
@@ -424,7 +440,10 @@ def test_files_of_a_map_of_ones_own_are_compared(tmp_path: Path) -> None:
         saved.write(Path(path), "example", EXAMPLE, 1, {each.address: 0 for each in rows(EXAMPLE)})
     assert parameters("compare", *paths).stderr.startswith("there is no drive `example`")
     got = parameters("compare", *paths, "--all", "--map", str(SKELETON))
-    assert (got.exit_code, got.stdout) == (0, f"{len(rows(EXAMPLE))} registers are equal\n")
+    assert (got.exit_code, got.stdout) == (
+        0,
+        f"{len(rows(EXAMPLE))} registers are equal, of {len(rows(EXAMPLE))} in the map\n",
+    )
 
 
 def test_another_drives_file_is_not_continued(pump: Path) -> None:

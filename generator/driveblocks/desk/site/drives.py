@@ -12,15 +12,17 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn
 from driveblocks import console
 from driveblocks.desk import port
 from driveblocks.desk.clock import RealClock
+from driveblocks.desk.exchange import quality
 from driveblocks.desk.master import Speech
 from driveblocks.desk.port import Port
 from driveblocks.desk.run.drives import named, words
 from driveblocks.desk.site import adapter
 from driveblocks.desk.site.found import Way
 from driveblocks.desk.site.line import CHARACTER_BITS
-from driveblocks.desk.site.reader import LostError, One, Reader, heard
+from driveblocks.desk.site.reader import LostError, One, Reader, StraysError, heard
 from driveblocks.desk.site.register import Row, rows, unread, value
 from driveblocks.desk.site.saved import Saved, Word, read, write
+from driveblocks.desk.site.session import troubles
 from driveblocks.desk.words import Refused, time
 from driveblocks.maps import catalog
 from driveblocks.maps.collection import read as maps_of
@@ -33,7 +35,7 @@ from driveblocks.show.layout import table
 from structured_text.visible import file_name
 
 HIGHEST_PATIENCE_US = 3_600_000_000
-MOST_NAMED = 8
+MOST_NAMED, FEW_NAMED = 8, 4
 """Registers in one line."""
 
 
@@ -72,8 +74,8 @@ class Place:
         finally:
             made.close()
 
-    def take(self, one: One, found: dict[int, Word], keep: Callable[[], None], name: str = "") -> None:
-        """Read a drive; `name` is the file of what was found before. Raises Refused, LostError."""
+    def take(self, one: One, found: dict[int, Word], keep: Callable[[], None], name: str = "") -> str:
+        """Read a drive; `name`: the file of what was found before; how the line was. Raises Refused, LostError."""
         clock, screen = RealClock(), console.terminal()
         columns = TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn()
         speech = Speech("ascii" if self.ascii else "rtu", 1_000_000 * CHARACTER_BITS[self.form.upper()] / self.rate)
@@ -91,7 +93,19 @@ class Place:
                 raise Refused(why)
             if why := reader.changed(found):
                 raise Refused(f"{name} is of another drive, or it was changed since: {why}; name another file")
-            reader.read(found, kept, lambda why: bar.update(task, description=f"{one.name}: {why}"))
+            try:
+                reader.read(found, kept, lambda why: bar.update(task, description=f"{one.name}: {why}"))
+            except StraysError as strays:
+                raise StraysError(f"{strays}\n{_line(reader)}") from strays
+        return _line(reader)
+
+
+def _line(reader: Reader) -> str:
+    """What the line was like, and what was read twice."""
+    figures, again = quality(reader.master.said), sum(map(len, reader.again))
+    twice = f"\n{again} registers were read again, since replies came that nobody had asked for" if again else ""
+    faults = "".join(f"\n{each.kind.upper()}: {each.text}\n  look at: {each.look}" for each in troubles(figures))
+    return f"the line: {figures}; {figures.verdict}{twice}{faults}"
 
 
 def drive(word: str) -> One:
@@ -108,8 +122,11 @@ def _map(name: str) -> tuple[Path, Drive]:
     return path, load(path)
 
 
-def save(word: str, path: Path, place: Place) -> str:
-    """Read a drive into a file, from where it ended before; what was done. Raises Refused, LostError, OSError."""
+def save(word: str, path: Path, place: Place) -> tuple[str, bool]:
+    """Read a drive into a file, from where it ended before; what was done, and whether every register was read.
+
+    Raises Refused, LostError, OSError.
+    """
     wrong, ready = list(place.wrong()), list[tuple[One, dict[int, Word]]]()
     try:
         named_one = drive(word)
@@ -121,13 +138,20 @@ def save(word: str, path: Path, place: Place) -> str:
     ((one, found),) = ready
     every = len(rows(one.drive))
     try:
-        place.take(one, found, lambda: write(path, one.stem, one.drive, one.unit, found), file_name(path))
+        line = place.take(one, found, lambda: write(path, one.stem, one.drive, one.unit, found), file_name(path))
     except (LostError, KeyboardInterrupt) as error:
         kept = f"{file_name(path)} has {len(found)} of {every} registers; the same command reads the rest"
         raise LostError(f"{str(error) or 'Ctrl-C'}; {kept if found else 'nothing was written'}") from error
     silent = sum(isinstance(each, str) for each in found.values())
     without = f", {silent} of them not given by the drive" if silent else ""
-    return "\n".join((f"{one.name}: {every} registers{without}, in {file_name(path)}", *unread(one.drive)))
+    said = f"{one.name}: {every} registers{without}, in {file_name(path)}"
+    return "\n".join((said, _listed(one.drive), *unread(one.drive), line)), not silent
+
+
+def _listed(drive: Drive) -> str:
+    """How many parameters there are in the map."""
+    count = sum(each.set for each in rows(drive))
+    return f"the map lists {count} parameters of this drive; what else it may have is neither read nor compared"
 
 
 def _begun(path: Path, one: One) -> dict[int, Word]:
@@ -176,7 +200,7 @@ def _is_file(word: str) -> bool:
 
 def _taken(one: One, place: Place) -> Saved:
     found: dict[int, Word] = {}
-    place.take(one, found, lambda: None)
+    console.write(place.take(one, found, lambda: None))
     return Saved(one.name, one.stem, one.unit, found, f"{revision(one.drive):08X}")
 
 
@@ -194,8 +218,11 @@ def _differences(model: Drive, left: Saved, right: Saved, *, everything: bool) -
         made.add_row(row.id, address_text(row.address), row.name, *shown, row.default)
     what = "registers" if everything else "parameters"
     lines = [f"{len(differing)} of {len(both)} {what} differ" if differing else f"{len(both)} {what} are equal"]
+    lines[0] += f", of {len(compared)} in the map"
     if missing := len(both) < len(compared):
-        lines.append(f"{len(compared) - len(both)} were not read on both sides")
+        left_out = [address_text(each.address) for each in compared if each not in both]
+        which = ", ".join(left_out[:FEW_NAMED]) + (", ..." if len(left_out) > FEW_NAMED else "")
+        lines.append(f"{len(left_out)} not compared, for want of a word: {which}")
     if {left.revision, right.revision} != {f"{revision(model):08X}"}:
         lines.append("the revisions of the maps differ: names and units are those of the map as it is now")
     if strange := sorted(_unlisted(model, left.words, right.words)):

@@ -130,10 +130,19 @@ def _taken(before: Mapping[str, kept.Kept], words: Words) -> Iterator[str]:
             yield f"{words.label} and {label} are one name in a PLC; name another --label"
 
 
-def told(person: Asker, words: Words, drive: Drive, found: Found, shelf: Shelf) -> None:
-    """The end: what was wrong, what was kept, and what is next."""
+def _weighed(person: Asker, found: Found) -> None:
+    """What was wrong, and what the line and the drive have shown."""
     for fault in found.faults:
         person.say(f"{fault.kind.upper()}: {fault.text}\n  look at: {fault.look}")
+    if found.quality is not None:
+        person.say(f"The line: {found.quality}; {found.quality.verdict}")
+    if found.evidence:
+        person.say("\n".join(("What speaks for the family, or against it:", *(f"- {each}" for each in found.evidence))))
+
+
+def told(person: Asker, words: Words, drive: Drive, found: Found, shelf: Shelf) -> None:
+    """The end: what was wrong, what was kept, and what is next."""
+    _weighed(person, found)
     if found.measured is not None and found.way is not None:
         person.say(f"Longest reply {found.measured.longest_ms} ms; on a line with this drive alone:")
         name = f"{words.map}@{found.unit}"

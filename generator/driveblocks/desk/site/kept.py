@@ -72,6 +72,19 @@ class Times(Entry):
 
 
 @dataclass(frozen=True, kw_only=True)
+class Figures(Entry):
+    """How well the line carried what was asked, in exchanges."""
+
+    exchanges: Number = fact("exchanges", "231")
+    good: Number = fact("with a good reply", "224")
+    refused: Number = fact("refused", "7")
+    damaged: Number = fact("spoilt", "0")
+    late: Number = fact("with a reply that came too late", "0")
+    doubled: Number = fact("with a reply more", "0")
+    silent: Number = fact("without a reply", "0")
+
+
+@dataclass(frozen=True, kw_only=True)
 class Said(Entry):
     """A gap of the manual, for this drive."""
 
@@ -102,6 +115,8 @@ class Kept(Entry):
     tried: tuple[Str, ...] = fact(
         "rates and formats that were tried", "[9600 bit/s 8N1 RTU]", optional=True, default=()
     )
+    evidence: tuple[Str, ...] = fact("what speaks for the family, with its frame", "[...]", optional=True, default=())
+    quality: Figures | None = fact("exchanges on the line since it was found", "{exchanges: 231, ...}", optional=True)
     settings: tuple[Checked, ...] = fact("the keypad", "[{id: H5-01, read: 1}]", optional=True, default=())
     measured: Times | None = fact("times", "{reads: 200, ...}", optional=True)
     answers: tuple[Said, ...] = fact("gaps", "[{gap: ..., answer: ...}]", optional=True, default=())
@@ -210,7 +225,7 @@ def _lines(about: About, found: Found) -> Iterator[str]:
         yield from [f"{key}: {_flow(value)}"] if value else []
     for key, some in (
         ("finished", found.done), ("skipped", found.skipped), ("tried", found.tried),
-        ("faults", [each.text for each in found.faults]),
+        ("faults", [each.text for each in found.faults]), ("evidence", found.evidence),
     ):  # fmt: skip
         yield from [f"{key}: {_flow(some)}"] if some else []
     rows: dict[str, list[dict[str, Any]]] = {
@@ -222,6 +237,8 @@ def _lines(about: About, found: Found) -> Iterator[str]:
     if (times := found.measured) is not None:
         given = {**vars(times), "turn_round_ms": times.turn_round_ms, "longest_reply_ms": times.longest_reply_ms}
         yield f"measured: {_flow(given)}"
+    if found.quality is not None:
+        yield f"quality: {_flow(vars(found.quality))}"
     for key, entries in rows.items():
         yield from [f"{key}:", *(f"  - {_flow(each)}" for each in entries)] if entries else []
 

@@ -6,7 +6,7 @@ from typing import Any
 from rich.console import RenderableType
 from rich.text import Text
 
-from driveblocks.desk.exchange import ECHOED, Exchanges, Key, Poll, Role, Said, Unit
+from driveblocks.desk.exchange import ECHOED, Exchanges, Key, Poll, Role, Said, Unit, quality
 from driveblocks.desk.explain.meaning import held
 from driveblocks.desk.explain.page import means
 from driveblocks.desk.site.ear import FORMS
@@ -96,6 +96,7 @@ def _line(way: Way, traffic: Exchanges) -> Iterator[tuple[str, object]]:
     yield "heard", f"{traffic.frames} frames, {traffic.requests} of them requests, in {heard_us / 1e6:.1f} s"
     if heard_us:
         yield "busy", f"{min(100, 100 * traffic.bytes * way.character_us / heard_us):.0f} % of the time"
+    yield "asked", str(quality(traffic))
     yield "silence", f"{traffic.silence_us // 1000} ms at most"
     for (function, address), count in sorted(traffic.broadcasts.items()):
         yield "broadcast", f"{count} x {function:02X}H at {address_text(address)}"

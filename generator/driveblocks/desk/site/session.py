@@ -73,8 +73,8 @@ def commission(line: Line, asker: Asker, wish: Wish, keep: Callable[[Found], Non
         found.faults.append(Fault("lost", f"the port does not work any more: {error.strerror or error}", LOOK["lost"]))
         found.ended = found.faults[-1].text
     if known and before is not None and talk is not None:
-        keep(_weighed(talk, found, before))
-        found.faults += _troubles(found)
+        _weighed(talk, found, before).faults.extend(troubles(found.quality or Quality()))
+        keep(found)
     return found
 
 
@@ -85,9 +85,8 @@ def _weighed(talk: Talk, found: Found, before: Quality) -> Found:
     return found
 
 
-def _troubles(found: Found) -> Iterator[Fault]:
-    """What the figures of the line say is wrong with it."""
-    figures = found.quality or Quality()
+def troubles(figures: Quality) -> Iterator[Fault]:
+    """What the figures of a line say is wrong with it, and what to look at."""
     for name in figures.troubles:
         share = f"{getattr(figures, name)} of {figures.exchanges} exchanges ({100 * figures.share(name):.1f} %)"
         kind, text = LINE[name]

@@ -4,6 +4,7 @@ import html
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 from driveblocks import __version__
+from driveblocks.desk.exchange import PARTS, Quality
 from driveblocks.desk.site.kept import Kept
 from driveblocks.desk.site.steps import script
 from driveblocks.maps.model import Drive
@@ -104,6 +105,11 @@ def _facts(one: Kept) -> Iterator[tuple[str, str]]:
         yield "pause after a reply", f"{times.gap_ms} ms holds" if times.gap_ms else "not found out"
         yield "longest read", f"{times.words} words"
         yield "unlisted register", times.unlisted
+    if one.quality is not None:
+        figures = Quality(**{name: getattr(one.quality, name) for name in ("exchanges", *PARTS)})
+        yield "exchanges", f"{figures}; {figures.verdict}"
+    for at, each in enumerate(one.evidence):
+        yield "" if at else "evidence", each
     yield "settings", ", ".join(f"{name} {value}" for name, value in members(one).items()) or "none found out"
     yield "skipped", ", ".join(one.skipped) or "nothing"
     yield "ended early", one.ended or "no"
