@@ -18,6 +18,8 @@ LOOK_US = 1_000
 HURRY_US = 50_000
 """How long a reply is waited for by those who do not wait: the request itself has to be sent."""
 READS = (1, 2, 3, 4)
+TRIES = 5
+BUSY_US = 200_000
 LEARNED = 8
 """Replies after which the longest of them says how long one is waited for."""
 SHORTEST_US = 200_000
@@ -155,6 +157,24 @@ class Master:
         size = reply_size(body) if body[1] in READS else len(body)
         most = end + self._wire_us(seal(self.speech.mode, bytes(size)))
         return self._reply(body, end, most, patience_us)
+
+    def patient(self, body: bytes, busy: int | None = None) -> Reply:
+        """The same, again where the line spoils the reply or the drive is busy, which is that reason of a refusal."""
+        reply = Reply("silent")
+        for _ in range(TRIES):
+            reply = self.ask(body)
+            if reply.answered and (busy is None or reply.refused != busy):
+                break
+            if reply.kind == "unclear":
+                self.rest(LATE_US)
+            elif reply.answered:
+                self.rest(BUSY_US)
+        return reply
+
+    @property
+    def answered(self) -> bool:
+        """Whether any request of ours has got its reply."""
+        return self._replies > 0
 
     def _reply(self, body: bytes, end: int, most: int, patience_us: int | None) -> Reply:
         """Wait for it: `end` is that of the request, and `most` when a reply at once would have ended."""

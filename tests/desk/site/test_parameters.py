@@ -389,7 +389,7 @@ def test_what_only_one_file_has_is_not_taken_for_equal(pump: Path, tmp_path: Pat
     got = parameters("compare", str(pump), str(other), "--all")
     assert got.stdout.splitlines()[-2:] == [
         "1 of 3 registers differ, of 388 in the map",
-        "385 not compared, for want of a word: 0000H, 0001H, 0002H, 0003H, ...",
+        "385 not compared, for want of a word: 0000H, 0001H, 0006H, 0007H, ...",
     ]
     (row,) = [line for line in got.stdout.splitlines() if line.startswith("U1-01")]
     assert row.split()[-4:] == ["50.00", "Hz", "40.00", "Hz"]

@@ -9,7 +9,9 @@ from driveblocks.maps.plan import write_request
 from driveblocks.modbus import frame, layout
 from driveblocks.simulator.pattern import of_write
 
-READS = frozenset({1, 2, 3, 4})
+READS = frozenset({1, 2, 3, 4, 17})
+IDENTIFIES = b"\x2b\x0e"
+"""Function 43 with the type that reads the identification."""
 WRITES = frozenset({6, 16})
 STOPS = frozenset({"stop", "coast_stop", "quick_stop", "jog_stop"})
 
@@ -73,7 +75,7 @@ class Guard:
         unit, function = request.body[:2]
         if unit == 0:
             return "broadcast"
-        if function in READS or unit in self._free:
+        if function in READS or request.body[1:3] == IDENTIFIES or unit in self._free:
             return ""
         write = writes(request)
         if write is not None and write in self._stops.get(unit, ()):

@@ -1,10 +1,18 @@
 """Which drives a person lets run on a real port, by typing what they are."""
 
 import sys
+from collections.abc import Collection, Iterable
 
 from driveblocks import console
+from driveblocks.desk.clock import Clock
 from driveblocks.desk.keyboard import Keyboard
+from driveblocks.desk.master import Master
+from driveblocks.desk.port import Port
 from driveblocks.desk.run.controller import Controller
+from driveblocks.desk.run.stopper import speech
+from driveblocks.desk.site.family import stranger
+from driveblocks.desk.site.reader import Reads
+from driveblocks.maps.collection import Source
 
 WIRED = "WIRED"
 
@@ -17,6 +25,20 @@ def ask(program: Controller, keyboard: Keyboard) -> frozenset[tuple[int, str]]:
         if (unit, path) not in allowed:
             console.write(f"{path}, unit {unit}: reads and stops only")
     return allowed
+
+
+def strangers(
+    program: Controller, port: Port, clock: Clock, free: Collection[int], maps: Iterable[Source]
+) -> list[str]:
+    """Why drives that may run are of another family than their blocks, by reads alone."""
+    units = {unit: drive for unit, drive in program.units().items() if unit in free}
+    master = Master(Reads(port), clock, speech(program, units))
+    every = {each.path.stem: each.drive for each in maps}
+    found = (
+        stranger(master, drive, unit, {stem: one for stem, one in every.items() if one.prefix != drive.prefix})
+        for unit, drive in units.items()
+    )
+    return [each for each in found if each]
 
 
 def _let_run(program: Controller, keyboard: Keyboard, unit: int, path: str) -> bool:

@@ -10,7 +10,6 @@ from dataclasses import dataclass, field
 from driveblocks.desk.clock import Clock
 from driveblocks.desk.ending import Ending
 from driveblocks.desk.keyboard import is_variable, typed
-from driveblocks.desk.master import Speech
 from driveblocks.desk.port import Port
 from driveblocks.desk.recorder import Recorder
 from driveblocks.desk.run.controller import Controller
@@ -18,7 +17,7 @@ from driveblocks.desk.run.gate import Gate, GivenUp
 from driveblocks.desk.run.look import look
 from driveblocks.desk.run.pace import Pace
 from driveblocks.desk.run.play import Play
-from driveblocks.desk.run.stopper import Stop, Stopper
+from driveblocks.desk.run.stopper import Stop, Stopper, speech
 from driveblocks.desk.run.watchdog import Watchdog
 from driveblocks.desk.script import Setting
 from driveblocks.desk.seen import View
@@ -27,8 +26,6 @@ from structured_text.engines.engine import ScanError
 
 LOOK_US = 200_000
 """Between two looks for the screen."""
-USUAL_RATE, USUAL_BITS = 19200, 11
-"""Of a line that was not called yet."""
 WITHIN_US = 10_000_000
 """Time to standstill of a drive whose block does not give it."""
 TAKE_US = 65_000_000
@@ -240,7 +237,7 @@ class Session:
         stops = {unit: self._stop_of(unit, drive) for unit, drive in units.items()}
         shown = {unit: ", ".join(some) for unit, some in names.items()}
         if free:
-            Stopper(self._gate, self._clock, self.ending, _speech(controller, units), told.put, shown).stop(stops)
+            Stopper(self._gate, self._clock, self.ending, speech(controller, units), told.put, shown).stop(stops)
         found = {unit: one.why if free else STUCK for unit, one in stops.items()}
         found |= dict.fromkeys(
             names.keys() - units.keys(), "no stop sent: its unit address is not its own, or not known"
@@ -263,14 +260,6 @@ def _names(controller: Controller) -> dict[int, list[str]]:
     for block in controller.wiring.drives:
         names.setdefault(controller.unit(block), []).append(block.path)
     return names
-
-
-def _speech(controller: Controller, units: dict[int, Drive]) -> Speech:
-    number, line = controller.number, controller.wiring.line
-    silences = [each.serial.silence for each in units.values()]
-    milliseconds = max((each.milliseconds or 0 for each in silences if each), default=0)
-    bits, rate = number(f"{line}.CharacterBits") or USUAL_BITS, number(f"{line}.BitRate") or USUAL_RATE
-    return Speech("ascii" if number(f"{line}.Ascii") else "rtu", 1e6 * bits / rate, int(1000 * milliseconds))
 
 
 def _halt() -> None:

@@ -18,7 +18,9 @@ from driveblocks.desk.run import demo, live, probe, source
 from driveblocks.desk.run.controller import Controller
 from driveblocks.desk.run.departure import Departure
 from driveblocks.desk.run.drives import Named, named, of_program, words
-from driveblocks.desk.run.options import Options, wrong
+from driveblocks.desk.run.options import Options
+from driveblocks.desk.run.options import wrong as mistakes_of
+from driveblocks.desk.run.permission import strangers
 from driveblocks.desk.run.play import Play
 from driveblocks.desk.run.session import Result, Session
 from driveblocks.desk.run.simulated import Simulation
@@ -53,7 +55,7 @@ class Setup:
 
     def __init__(self, options: Options, keyboard: Keyboard) -> None:
         """Prepare everything but the port; `keyboard` is what a person types while it runs. Raises Refused."""
-        if mistakes := list(wrong(options)):
+        if mistakes := list(mistakes_of(options)):
             raise Refused("\n".join(mistakes))
         self._options = options
         self._keyboard = keyboard
@@ -242,6 +244,9 @@ class Setup:
         with self._stack, listening(self._session.ending, suspend):
             opened = self._port()
             self._stack.callback(opened.close)
+            units = {unit for unit, _ in free} if self._options.real else set()
+            if wrong := strangers(self.probe, opened, self._clock, units, self._maps):
+                raise Refused("\n".join(wrong))
             self._session.connect(opened, free if self._options.real else None)
             for note in self._session.controller.wiring.notes:
                 console.write(str(note))

@@ -7,6 +7,7 @@ from driveblocks.desk.clock import Clock
 from driveblocks.desk.ending import Ending
 from driveblocks.desk.exchange import LATE_US
 from driveblocks.desk.master import REPLY_US, Last, Master, Speech
+from driveblocks.desk.run.controller import Controller
 from driveblocks.desk.run.gate import Gate
 from driveblocks.desk.run.guard import stop_request
 from driveblocks.maps.form import Span
@@ -24,6 +25,8 @@ ROUNDS = 3
 PATIENT = 4
 """In each of so many rounds, a reply is waited for as long as a gateway may take; in the others other drives come."""
 SAY_US = 5_000_000
+USUAL_RATE, USUAL_BITS = 19200, 11
+"""Of a line that was not called yet."""
 SILENT = "no reply to the stop"
 
 
@@ -144,3 +147,12 @@ class Stopper:
 def waited(stops: Mapping[int, Stop]) -> Collection[int]:
     """Units of drives whose standstill is not proved."""
     return [unit for unit, one in stops.items() if one.why]
+
+
+def speech(controller: Controller, units: dict[int, Drive]) -> Speech:
+    """How a program's line is spoken on."""
+    number, line = controller.number, controller.wiring.line
+    silences = [each.serial.silence for each in units.values()]
+    milliseconds = max((each.milliseconds or 0 for each in silences if each), default=0)
+    bits, rate = number(f"{line}.CharacterBits") or USUAL_BITS, number(f"{line}.BitRate") or USUAL_RATE
+    return Speech("ascii" if number(f"{line}.Ascii") else "rtu", 1e6 * bits / rate, int(1000 * milliseconds))

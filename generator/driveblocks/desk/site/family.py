@@ -5,12 +5,13 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Literal
 
-from driveblocks.desk.master import Reply
+from driveblocks.desk.master import Master, Reply
 from driveblocks.maps.form import Span, address_text
 from driveblocks.maps.model import Drive, Identity
 from driveblocks.maps.plan import dialect, plan, read_request
 from driveblocks.maps.polls import Poll, identity_read, polls
 from driveblocks.simulator.pattern import of_condition
+from driveblocks.simulator.refusal import codes
 
 UNLISTED = 12
 """Registers that no table lists: a unit that answers all of these answers everything."""
@@ -69,6 +70,22 @@ def judge(ask: Ask, drive: Drive, unit: int, others: Mapping[str, Drive]) -> Jud
                 return found.against(f"unit {unit} answers as {name} does, and not as {drive.prefix}", rival[-1][1])
             found.note(f"answers what {name} reads, too", rival[-1][1])
     return _named(ask, drive, unit, others, found)
+
+
+def stranger(master: Master, drive: Drive, unit: int, others: Mapping[str, Drive]) -> str:
+    """Why a unit that answers is of another family; empty where nothing shows that, or where it is silent."""
+
+    def ask(one: Drive, body: bytes) -> Reply:
+        master.said.anyone = one
+        return master.patient(body, codes(drive)["busy"])
+
+    first = _request(unit, drive, identity_read(drive) or polls(drive)[0])
+    if not ask(drive, first).answered:
+        return ""
+    judged = judge(ask, drive, unit, others)
+    gone = judged.family == "other" and not ask(drive, first).answered
+    master.said.anyone = drive
+    return "" if gone else judged.why
 
 
 def _what(poll: Poll) -> str:

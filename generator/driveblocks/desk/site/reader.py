@@ -6,21 +6,18 @@ from dataclasses import dataclass, replace
 
 from driveblocks.desk.clock import Clock
 from driveblocks.desk.exchange import LATE_US, Exchanges
-from driveblocks.desk.master import Master, Reply, Speech
+from driveblocks.desk.master import Master, Speech
 from driveblocks.desk.port import Port
 from driveblocks.desk.run.guard import Guard
-from driveblocks.desk.site.family import judge, span_of
+from driveblocks.desk.site.family import stranger
 from driveblocks.desk.site.register import rows, spans
 from driveblocks.desk.site.saved import Word
 from driveblocks.maps.form import Span, address_text
 from driveblocks.maps.model import Drive
 from driveblocks.maps.pair import whole
 from driveblocks.maps.plan import most, read_request
-from driveblocks.maps.polls import identity_read, polls
 from driveblocks.simulator.refusal import codes
 
-TRIES = 5
-BUSY_US = 200_000
 PAUSE_US = 500_000
 LISTEN_US = 1_000_000
 BELIEVED_US = 300_000
@@ -191,17 +188,10 @@ class Reader:
 
     def stranger(self, others: Mapping[str, Drive]) -> str:
         """What shows that the unit is another family's; empty where nothing does. Raises LostError."""
-
-        def ask(drive: Drive, body: bytes) -> Reply:
-            self.master.said.anyone = drive
-            return self._patient(body)
-
-        judged = judge(ask, self._drive, self._unit, others)
-        self.master.said.anyone = self._drive
-        read = identity_read(self._drive) or polls(self._drive)[0]
-        if judged.family == "other" and self._answer(span_of(read)) == SILENT:
+        why = stranger(self.master, self._drive, self._unit, others)
+        if not self.master.answered:
             raise LostError(self.master.error or f"unit {self._unit} does not answer")
-        return judged.why
+        return why
 
     def _answers(self, wait: Callable[[str], None]) -> bool:
         """Wait until a run that was answered before is answered again. Raises LostError."""
@@ -217,24 +207,11 @@ class Reader:
     def _answer(self, span: Span) -> tuple[int, ...] | str:
         """The words of a run; why there are none."""
         self._asked = len(span)
-        reply = self._patient(read_request(self._unit, self._drive, span))
+        reply = self.master.patient(read_request(self._unit, self._drive, span), self._busy)
         if not reply.words and reply.refused is None:
             return SILENT
         self._good = span
         return reply.words or f"refused {reply.refused}"
-
-    def _patient(self, body: bytes) -> Reply:
-        """A request, again where the line spoils the reply or the drive is busy."""
-        reply = Reply("silent")
-        for _ in range(TRIES):
-            reply = self.master.ask(body)
-            if reply.refused is not None and reply.refused == self._busy:
-                self._clock.sleep_until(self._clock.now_us() + BUSY_US)
-            elif reply.words or reply.answered:
-                break
-            elif reply.kind == "unclear":
-                self.master.rest(LATE_US)
-        return reply
 
 
 def heard(port: Port, clock: Clock) -> bool:
