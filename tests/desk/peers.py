@@ -1,0 +1,233 @@
+"""Units on a line in virtual time that names what it does to them: it delays, doubles, damages, echoes and mixes up.
+
+Nothing of it is computed by the product: frames are those of `tests.second.frames`, words name their own address, and
+tables come from makers' documents, not from maps.
+"""
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+from heapq import heappop, heappush
+from random import Random
+from typing import Protocol
+
+from tests.second.frames import opened, rtu
+
+from driveblocks.desk.clock import VirtualClock
+from driveblocks.desk.site.found import Way
+
+CHAR_US = 1042
+"""10 bits at 9,600 bit/s."""
+
+
+class Peer(Protocol):
+    """A unit: what it says to a frame whose last character arrives now, with the time of its first character."""
+
+    def receive(self, frame: bytes, now_us: int) -> list[tuple[int, bytes]]:
+        """Replies."""
+
+
+@dataclass
+class Named:
+    """A unit whose words and coils name their address, but for those that are given."""
+
+    unit: int = 1
+    reply_us: int = 5000
+    mark: int = 0
+    """Told apart from another unit by it: a bit of each word."""
+    given: Mapping[int, int] = field(default_factory=dict)
+    refuses: frozenset[int] = frozenset()
+    silent: frozenset[int] = frozenset()
+    only: frozenset[int] | None = None
+    """Registers that there are; None: all."""
+    most: int = 125
+    functions: tuple[int, ...] = (1, 2, 3, 4)
+    refusal: tuple[int, int] | None = None
+    """Function and address of its refusals; None: as the standard has them."""
+    said: tuple[int, ...] = (1, 2, 3)
+    """Its reasons: function, address, value."""
+
+    def word(self, address: int) -> int:
+        """What a register holds."""
+        return self.given.get(address, address ^ self.mark)
+
+    def coil(self, address: int) -> bool:
+        """What a coil is: no pattern that a shift keeps."""
+        return bool((address * 0x9E3779B1 >> 13) & 1)
+
+    def receive(self, frame: bytes, now_us: int) -> list[tuple[int, bytes]]:
+        """As `Peer`."""
+        body = opened(frame)
+        if body is None or len(body) < 2 or body[0] != self.unit:
+            return []
+        reply = self._reply(body)
+        return [] if reply is None else [(now_us + self.reply_us, rtu(reply))]
+
+    def _reply(self, body: bytes) -> bytes | None:
+        if body[1] not in self.functions or len(body) != 6:
+            return self._no(body, self.said[0])
+        first, count = int.from_bytes(body[2:4], "big"), int.from_bytes(body[4:6], "big")
+        span = range(first, first + count)
+        if not self.silent.isdisjoint(span):
+            return None
+        if count > self.most or body[1] not in (1, 2, 3, 4):
+            return self._no(body, self.said[2])
+        if not self.refuses.isdisjoint(span) or not (self.only is None or self.only.issuperset(span)):
+            return self._no(body, self.said[1])
+        if body[1] < 3:
+            bits = sum(self.coil(each) << place for place, each in enumerate(span))
+            return body[:2] + bytes([-(-count // 8)]) + bits.to_bytes(-(-count // 8), "little")
+        return body[:2] + bytes([2 * count]) + b"".join(self.word(each).to_bytes(2, "big") for each in span)
+
+    def _no(self, body: bytes, reason: int) -> bytes:
+        if self.refusal is None:
+            return bytes([body[0], body[1] | 0x80, reason])
+        return bytes([body[0], self.refusal[0], *self.refusal[1].to_bytes(2, "big"), 0, reason])
+
+
+def table(words: Mapping[int, int], **other: object) -> Named:
+    """A drive that has these registers alone."""
+    return Named(given=words, only=frozenset(words), **other)  # type: ignore[arg-type]  # fields of Named
+
+
+def pi500() -> Named:
+    """Powtran PI500 (its manual, page 157; LinuxCNC's pi500_vfd): 1000H to 1016H and F001H, 3000H state, 8000H fault."""
+    monitors = {0x1001: 0, 0x1002: 5400, 0x1003: 0, 0x1004: 0, 0x1005: 0, 0x1006: 0, 0x1007: 0}
+    groups = {0xF000 + (group << 8) + each: each for group in range(3) for each in range(20)}
+    return table({0x1000: 0, **monitors, 0x3000: 3, 0x8000: 0, **groups}, most=12, functions=(3, 6))
+
+
+def acs355() -> Named:
+    """ABB ACS355, standard Modbus (manual pages 313, 319): 0 control word, 3 status word, parameter GGII at 100 G + I - 1."""
+    process = {0: 0x0476, 1: 0, 2: 0, 3: 0x0231, 4: 0, 5: 0}
+    parameters = {100 * group + each: each for group in (1, 4, 10, 11, 20, 22, 53, 99) for each in range(12)}
+    return table({**process, **parameters}, most=120, functions=(1, 2, 3, 4, 5, 6, 8, 15, 16))
+
+
+def vfd_e() -> Named:
+    """Delta VFD-E (manual, Pr.09.04, address list): 2100H to 2109H read, 2000H to 2002H written only, Pr. GG-nn at GGnnH."""
+    monitors = {0x2100: 0, 0x2101: 0x0500, 0x2102: 5000, 0x2103: 0, 0x2104: 0, 0x2105: 3110, 0x2106: 0, 0x2107: 0}
+    parameters = {(group << 8) + each: each for group in (0, 1, 2, 9) for each in range(10)}
+    return table({**monitors, **parameters}, most=1, functions=(3, 6))
+
+
+def everything() -> Named:
+    """A gateway that answers every address with 0."""
+    return Named(given=dict.fromkeys(range(0x10000), 0))
+
+
+STRANGERS = {"pi500": pi500, "acs355": acs355, "vfd_e": vfd_e}
+"""Drives that no map is made for."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Fate:
+    """What a line does; times in us."""
+
+    late_us: int = 0
+    once_us: int = 0
+    """How much later one reply comes: the `at`th."""
+    at: int = 12
+    double_us: int | None = None
+    """Each reply comes again so long after it has ended."""
+    damage: float = 0.0
+    """Share of frames that is damaged, in each direction."""
+    cut: bool = False
+    """Damage takes an end off, else it turns a bit."""
+    echo_us: int | None = None
+    """What is sent comes back so long after each of its characters, and replies come as much later."""
+
+
+class Line:
+    """A port with units on it."""
+
+    late_ms, error = 0, ""
+
+    def __init__(self, peers: Iterable[Peer], fate: Fate = Fate(), seed: int = 0) -> None:
+        """At 9,600 bit/s 8N1."""
+        self.clock, self.peers, self.fate, self.chance = VirtualClock(), [*peers], fate, Random(seed)
+        self.way = self.tuned = Way(9600)
+        self.asked = self.hurt = self.replies = 0
+        """Requests, those of which request or reply was damaged, and replies."""
+        self.last_us = 0
+        """When a character of a unit was last handed over."""
+        self.gone_us: int | None = None
+        """From then on the cable is out."""
+        self.bodies: set[int] = set()
+        """Functions that were sent."""
+        self._come: list[tuple[float, int, int, bool]] = []
+
+    def opened(self, way: Way) -> "Line":
+        """For `PortLine`."""
+        self.tuned = way
+        return self
+
+    def send(self, data: bytes) -> None:
+        """A request."""
+        now, fate = self.clock.now_us(), self.fate
+        if self.gone_us is not None and now >= self.gone_us:
+            return
+        end, self.asked = now + len(data) * CHAR_US, self.asked + 1
+        self.bodies.add(data[1])
+        if fate.echo_us is not None:
+            self._put(now + fate.echo_us, data, mine=True)
+        heard = self._spoilt(data)
+        hurt = heard != data
+        for peer in self.peers:
+            for at, reply in peer.receive(heard, end):
+                hurt |= self._said(at, reply)
+        self.hurt += hurt
+
+    def _said(self, at: int, reply: bytes) -> bool:
+        """Put a reply on the wire; whether it was damaged."""
+        fate, said = self.fate, self._spoilt(reply)
+        self.replies += 1
+        begin = at + fate.late_us + (fate.echo_us or 0) + (fate.once_us if self.replies == fate.at else 0)
+        self._put(begin, said)
+        if fate.double_us is not None:
+            self._put(begin + len(reply) * CHAR_US + fate.double_us, self._spoilt(reply))
+        return said != reply
+
+    def _spoilt(self, frame: bytes) -> bytes:
+        chance = self.chance
+        if chance.random() >= self.fate.damage:
+            return frame
+        place = chance.randrange(len(frame))
+        if self.fate.cut:
+            return frame[:place]
+        return frame[:place] + bytes([frame[place] ^ 1 << chance.randrange(8)]) + frame[place + 1 :]
+
+    def _put(self, begin: int, data: bytes, *, mine: bool = False) -> None:
+        for place, byte in enumerate(data, 1):
+            heappush(self._come, (begin + place * CHAR_US, len(self._come), byte, mine))
+
+    def receive(self) -> bytes:
+        """Characters that have ended."""
+        now, found = self.clock.now_us(), bytearray()
+        while self._come and self._come[0][0] <= now:
+            _, _, byte, mine = heappop(self._come)
+            found.append(byte)
+            self.last_us = self.last_us if mine else now
+        return bytes(found)
+
+    def close(self) -> None:
+        """Nothing to give back."""
+
+    @property
+    def share(self) -> float:
+        """Requests that were damaged, or their replies."""
+        return self.hurt / max(1, self.asked)
+
+
+LATE = {f"late {ms}": Fate(late_us=1000 * ms) for ms in (0, 35, 85, 245, 895)}
+ONCE = {f"once {ms}": Fate(late_us=35_000, once_us=1000 * ms - 40_000) for ms in (340, 1200)}
+DOUBLED = {f"doubled {ms}": Fate(double_us=1000 * ms) for ms in (5, 15, 30, 55, 90, 120)}
+DAMAGED = {
+    f"{'cut' if cut else 'flipped'} {share}": Fate(damage=share / 100, cut=cut)
+    for share in (1, 5, 10, 25)
+    for cut in (False, True)
+}
+ECHOES = {f"echo {ms}": Fate(echo_us=1000 * ms) for ms in (0, 16, 40, 200)}
+FATES = LATE | ONCE | DOUBLED | DAMAGED | ECHOES
+"""Lines by name."""
+TWINS_US = (10_000, 55_000, 120_000, 340_000)
+"""How much later the second of two units at one address replies."""
