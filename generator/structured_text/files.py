@@ -4,6 +4,7 @@ import errno
 import os
 import secrets
 import stat
+import sys
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
 from io import FileIO
@@ -14,13 +15,6 @@ from structured_text.visible import file_name
 MOST_TEXT = 8 << 20
 """A text of more is no source and no table; the largest library in public use has a tenth of it."""
 MOST_BYTES = 256 << 20
-_MARKS = {
-    b"\xff\xfe\x00\x00": "UTF-32", b"\x00\x00\xfe\xff": "UTF-32", b"\xff\xfe": "UTF-16", b"\xfe\xff": "UTF-16",
-}  # fmt: skip
-_KINDS = {
-    stat.S_IFDIR: "a directory", stat.S_IFIFO: "a named pipe", stat.S_IFSOCK: "a socket",
-    stat.S_IFCHR: "a device", stat.S_IFBLK: "a device",
-}  # fmt: skip
 _BINARY, _AT_ONCE = getattr(os, "O_BINARY", 0), getattr(os, "O_NONBLOCK", 0)
 _NO_LINK = os.O_CREAT | getattr(os, "O_NOFOLLOW", 0)  # Windows has none
 
@@ -41,12 +35,8 @@ class BadFile(OSError):  # noqa: N818  (bad input is no error of the program)
 
 
 def text(path: Path, most: int = MOST_TEXT) -> str:
-    """The text of a file in UTF-8, without a byte order mark and with its own line ends. Raises BadFile."""
-    found = data(path, most)
-    for mark, name in _MARKS.items():
-        if found.startswith(mark):
-            raise BadFile(path, f"it is {name} text", "save it as UTF-8")
-    found = found.removeprefix(b"\xef\xbb\xbf")
+    """The text of a file in UTF-8, without a byte order mark, lines ending as in UNIX. Raises BadFile."""
+    found = data(path, most).removeprefix(b"\xef\xbb\xbf").replace(b"\r\n", b"\n")
     try:
         whole = found.decode()
     except UnicodeDecodeError as error:
@@ -79,18 +69,15 @@ def head(path: Path, count: int) -> bytes:
         with os.fdopen(os.open(path, os.O_RDONLY | _AT_ONCE | _BINARY), "rb") as file:
             _refuse_other(path, os.fstat(file.fileno()))
             return file.read(count)
-    except BadFile:
-        raise
     except OSError as error:
-        raise BadFile(path, error.strerror or str(error)) from None
+        raise error if isinstance(error, BadFile) else BadFile(path, error.strerror or str(error)) from None
     except ValueError:  # a path with a NUL in it
         raise BadFile(path, "it has no possible name") from None
 
 
 def _refuse_other(path: Path, state: os.stat_result) -> None:
-    kind = _KINDS.get(stat.S_IFMT(state.st_mode))
-    if kind is not None:
-        raise BadFile(path, f"it is {kind}", "name a file")
+    if not stat.S_ISREG(state.st_mode):
+        raise BadFile(path, f"it is a {'folder' if stat.S_ISDIR(state.st_mode) else 'pipe or device'}", "name a file")
 
 
 class Output(FileIO):
@@ -114,6 +101,18 @@ def opened(path: Path, *, new: bool = False, waits: bool = True, mode: int = 0o6
     if not waits and _AT_ONCE:
         os.set_blocking(file.fileno(), True)
     return file
+
+
+def lock(file: Output, *, waits: bool) -> None:
+    """Hold a file until it is closed; the system frees what a process held that dies. Raises OSError."""
+    if sys.platform == "win32":
+        import msvcrt
+
+        msvcrt.locking(file.fileno(), msvcrt.LK_LOCK if waits else msvcrt.LK_NBLCK, 1)
+    else:
+        import fcntl
+
+        fcntl.flock(file, fcntl.LOCK_EX | (0 if waits else fcntl.LOCK_NB))
 
 
 def put(path: Path, content: str | bytes, *, new: bool = False, sync: bool = True, mode: int = 0o666) -> None:

@@ -74,7 +74,7 @@ def test_a_map_without_example_frames_is_good_and_told_what_its_tests_rest_on(go
 def test_a_folder_is_refused(tmp_path: Path) -> None:
     result = CliRunner().invoke(app, ["check", str(tmp_path)])
     assert result.exit_code == 2
-    assert result.stderr.startswith(f"{tmp_path}:1:1: this file cannot be read: it is a directory; ")
+    assert result.stderr.startswith(f"{tmp_path}:1:1: this file cannot be read: it is a folder; ")
 
 
 def test_a_path_is_in_messages_as_it_was_typed(bad: str, tmp_path: Path) -> None:

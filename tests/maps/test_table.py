@@ -54,7 +54,7 @@ REPORTED = {
     "P1;2000H;Speed;;0.01;": "a factor without a unit",
     "P1 to P3;2000H;Speed;;;": "`P1 to P3` is no id",
     "P1;2000H;Spe\x1bed;;;": "the name is no text",
-    "P1;\x1b[2J;Speed;;;": r"`\x1b[2J` is no hex address of one register",
+    "P1;\x1b[2J;Speed;;;": r"`\u001b[2J` is no hex address of one register",
     "P1;2000H;Speed;Hz;1;maybe": "`maybe` is no access; write r, w or rw",
     "P1;2000H": "the name is empty",
     "P1;;;;;maybe": "`` is no hex address of one register; the name is empty; `maybe` is no access; write r, w or rw",

@@ -13,6 +13,7 @@ import pytest
 
 from driveblocks.output import transaction
 from driveblocks.output.manifest import Refused, text_digest
+from structured_text import files
 
 OLD = {"page": "old page", "a/kept": "kept", "a/changed": "old", "gone/b/left": "left"}
 CHANGES: dict[str, str | None] = {"page": "new page", "a/changed": "new", "gone/b/left": None, "n/e/w": "fresh"}
@@ -288,15 +289,15 @@ def test_a_lock_file_that_its_owner_removes_meanwhile_is_no_lock(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, again: bool
 ) -> None:
     """Between opening and locking, the run that holds it ends, and perhaps the next one begins."""
-    taken = transaction._lock
+    taken = files.lock
 
-    def late(file: int) -> None:
-        monkeypatch.setattr(transaction, "_lock", taken)
+    def late(file: files.Output, *, waits: bool) -> None:
+        monkeypatch.setattr(files, "lock", taken)
         (tmp_path / transaction.LOCK).unlink()
         if again:
             (tmp_path / transaction.LOCK).touch()
-        taken(file)
+        taken(file, waits=waits)
 
-    monkeypatch.setattr(transaction, "_lock", late)
+    monkeypatch.setattr(files, "lock", late)
     with transaction.locked(tmp_path), pytest.raises(Refused), transaction.locked(tmp_path):
         pass

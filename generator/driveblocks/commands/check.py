@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 import click
 
 from driveblocks.commands import MAPS, refuse
+from structured_text.visible import file_name
 
 if TYPE_CHECKING:
     from driveblocks.maps.collection import Source
@@ -38,7 +39,7 @@ def _check(name: str, good: "list[Source]") -> int:
     """Check one map, alone and with the good ones before it; print what came out and return the number of mistakes."""
     from driveblocks.maps import catalog, collection, view
     from driveblocks.maps.load import load
-    from driveblocks.maps.problem import MapError, printable
+    from driveblocks.maps.problem import MapError
 
     try:
         path = catalog.resolve(name)
@@ -46,13 +47,13 @@ def _check(name: str, good: "list[Source]") -> int:
         if wrong := collection.clashes([*good, source]):
             raise MapError(wrong)
     except catalog.UnknownDrive as unknown:
-        click.echo(f"{printable(name)}:1:1: {unknown}", err=True)
+        click.echo(f"{file_name(name)}:1:1: {unknown}", err=True)
         return 1
     except MapError as error:
         click.echo(error, err=True)
         return len(error.problems)
     good.append(source)
-    shown = printable(str(path)) if catalog.is_path(name) else name
+    shown = file_name(str(path)) if catalog.is_path(name) else name
     click.echo(f"{shown}: good: {_held(source.drive)}")
     if not source.drive.frames:
         click.echo(f"{shown}: note: {view.UNPROVED}")

@@ -33,7 +33,7 @@ def run(pages: tuple[Path, ...], check: bool) -> None:
         if not pages:
             click.echo(inventory.table(maps, Path.cwd()), nl=False)
             return
-        old = {page: files.text(page).replace("\r\n", "\n") for page in pages}
+        old = {page: files.text(page) for page in pages}
         current = {page: inventory.update(text, maps, page.parent) for page, text in old.items()}
     except MapError as error:
         refuse(str(error))

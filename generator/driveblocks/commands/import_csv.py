@@ -8,6 +8,7 @@ import click
 
 from driveblocks.commands import FILE, refuse, write
 from structured_text import files
+from structured_text.visible import file_name
 
 COLUMN = "address, id, name, unit, scale, access, table, type or size"
 
@@ -34,7 +35,6 @@ def run(
     Example: driveblocks import-csv registers.csv --addresses hex
     """
     from driveblocks.maps import table
-    from driveblocks.maps.problem import printable
 
     named = dict(each.partition("=")[::2] for each in columns)
     if strange := named.keys() - table.COLUMNS.keys():
@@ -42,7 +42,7 @@ def run(
     try:
         text = sys.stdin.read() if file == "-" else files.text(Path(file))
         how = table.Reading(named, addresses, factor)
-        made = table.read(text, "the input" if file == "-" else printable(file), how)
+        made = table.read(text, "the input" if file == "-" else file_name(file), how)
     except (table.TableError, files.BadFile) as error:
         refuse(str(error))
     except UnicodeDecodeError:

@@ -6,6 +6,7 @@ from typing import Any
 import click
 
 from driveblocks.commands import FILE, refuse
+from structured_text import files
 
 
 @click.command()
@@ -68,5 +69,5 @@ def run(show: tuple[str, ...], **words: Any) -> None:
         keyboard = Keyboard(0)
         made = Setup(options, keyboard)
         sys.exit(made.run(permission.ask(made.probe, keyboard) if options.allow_run else frozenset()))
-    except Refused as refused:
+    except (Refused, files.BadFile) as refused:
         refuse(str(refused))

@@ -60,4 +60,4 @@ def _files(folder: Path) -> dict[Path, str]:
 
 
 def _read(path: Path) -> str:
-    return files.text(path).replace("\r\n", "\n") if path.exists() else ""
+    return files.text(path) if path.exists() else ""

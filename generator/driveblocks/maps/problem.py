@@ -2,17 +2,13 @@
 
 from dataclasses import dataclass, field
 
+from structured_text.visible import file_name
+
 Place = tuple[int, int]
 """1-based line and column in the file."""
 
 MAX_PROBLEMS = 1000
 """Nobody reads more, and each costs time: a hostile file can hold a mistake in every byte."""
-
-
-def printable(name: str) -> str:
-    """The name of a file as a terminal can show it: bytes that are no text, and line ends, escaped."""
-    shown = (each if each.isprintable() else each.encode("unicode_escape").decode("ascii") for each in name)
-    return "".join(shown)
 
 
 @dataclass(frozen=True, order=True)
@@ -27,7 +23,7 @@ class Problem:
 
     def __str__(self) -> str:
         """Print as `file:line:col: what is wrong; what would be right`."""
-        return f"{printable(self.file)}:{self.line}:{self.column}: {self.wrong}; {self.right}"
+        return f"{file_name(self.file)}:{self.line}:{self.column}: {self.wrong}; {self.right}"
 
 
 class MapError(Exception):

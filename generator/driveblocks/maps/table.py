@@ -15,7 +15,7 @@ from driveblocks.maps import cell, form
 from driveblocks.maps.cell import NOTHING, Way
 from driveblocks.maps.factor import doubt
 from driveblocks.maps.model import Unit
-from driveblocks.maps.problem import printable
+from structured_text.visible import file_name
 
 COLUMNS = {
     "address": ("address", "addr", "register", "reg", "register number", "modbus", "hex", "adresse", "地址", "寄存器"),
@@ -310,7 +310,7 @@ def _meant(head: str) -> str | None:
 
 def _shown(said: str) -> str:
     """What a cell says, as a terminal can show it."""
-    return printable(said if len(said) <= 60 else said[:60] + "...")
+    return file_name(said if len(said) <= 60 else said[:60] + "...")
 
 
 def _quoted(said: str) -> str:

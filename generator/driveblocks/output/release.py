@@ -50,13 +50,9 @@ def contents(root: Path, sources: list[Source], target: str, both: list[Language
     for link in sorted({link for name in leading if name.endswith(".md") for link in links.targets(name, own[name])}):
         beside = root / link
         if link.startswith("docs/") and beside.suffix == ".md" and beside.is_file():
-            own[link] = _page(beside)
+            own[link] = door.text(beside)
     pages = {name: links.live(name, text, own.__contains__) for name, text in own.items() if name.endswith(".md")}
-    return own | pages | {LICENCE: _page(root / LICENCE)}
-
-
-def _page(path: Path) -> str:
-    return door.text(path).replace("\r\n", "\n")
+    return own | pages | {LICENCE: door.text(root / LICENCE)}
 
 
 def _packed(texts: Mapping[str, str]) -> bytes:

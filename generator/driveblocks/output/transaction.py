@@ -21,17 +21,6 @@ from structured_text import files
 WORK, DONE, LOCK = ".driveblocks.work", ".driveblocks.done", ".driveblocks.lock"
 JOURNAL, NEW, OLD = "journal.json", "new", "old"
 
-if sys.platform == "win32":
-    import msvcrt
-
-    def _lock(file: int) -> None:
-        msvcrt.locking(file, msvcrt.LK_NBLCK, 1)
-else:
-    import fcntl
-
-    def _lock(file: int) -> None:
-        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
-
 
 @contextlib.contextmanager
 def locked(folder: Path) -> Iterator[None]:
@@ -60,7 +49,7 @@ def _taken(folder: Path) -> files.Output:
         _refuse_other(path, stat.S_ISREG, "the lock file of a build")
         file = files.opened(path)
         try:
-            _lock(file.fileno())
+            files.lock(file, waits=False)
             if os.path.samestat(os.fstat(file.fileno()), path.lstat()):
                 return file
         except FileNotFoundError:

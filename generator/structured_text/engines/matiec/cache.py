@@ -6,6 +6,7 @@ user, so no step of the way to it may be another user's, or one that others may 
 """
 
 import contextlib
+import errno
 import hashlib
 import json
 import os
@@ -18,7 +19,7 @@ from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 
 from structured_text.engines.engine import EngineError
-from structured_text.files import beside, data, opened, put
+from structured_text.files import beside, data, lock, opened, put
 
 SEAL = "seal.json"
 LIMIT_BYTES = 256 << 20
@@ -70,12 +71,10 @@ class Cache:
                 file.add(b"\0" * 4096)
         except OSError as error:
             return str(self._complaint(error))
-        except EngineError as error:
-            return str(error)
         return None
 
     def _folder(self, *names: str) -> Path:
-        """The root, or a folder below it; made for the user alone. Raises EngineError where a step is not.
+        """The root, or a folder below it; made for the user alone. Raises OSError where a step is not.
 
         A folder that was there keeps its mode: it may serve other purposes as well. The root may be a link.
         """
@@ -84,25 +83,18 @@ class Cache:
             step.mkdir(mode=0o700, exist_ok=True)
         real = Path(os.path.realpath(lexical))
         for step in {lexical, *lexical.parents, *real.parents}:
-            self._refuse(step, _foreign(step, above=True))
-        self._refuse(real, _foreign(real))
+            _refuse_foreign(step, above=True)
+        _refuse_foreign(real)
         for name in names:
             folder /= name
             folder.mkdir(mode=0o700, exist_ok=True)
-            self._refuse(folder, _foreign(folder))
+            _refuse_foreign(folder)
         return folder
-
-    def _refuse(self, step: Path, wrong: str) -> None:
-        if wrong:
-            raise EngineError(
-                f"the build cache {self.root} cannot be used: {step} {wrong}; make it yours (mode 700) or name another"
-                " folder in DRIVEBLOCKS_CACHE"
-            )
 
     def _complaint(self, error: OSError) -> EngineError:
         return EngineError(
-            f"cannot write the build cache {self.root}: {error.strerror or error};"
-            " make room or name a folder that can be written in DRIVEBLOCKS_CACHE"
+            f"cannot write the build cache {self.root}: {error.strerror or error}; make it yours (mode 700)"
+            " or name another folder, with room, in DRIVEBLOCKS_CACHE"
         )
 
     def _make(self, final: Path, make: Callable[[Path], None]) -> None:
@@ -127,9 +119,10 @@ class Cache:
         """Whether an entry is there and is what it was when it was made; a good one counts as used now."""
         seal = folder / SEAL
         try:
-            foreign = any(_foreign(each) for each in (folder, *folder.iterdir()))
+            for each in (folder, *folder.iterdir()):
+                _refuse_foreign(each)
             expected = json.loads(data(seal))
-            good = not foreign and bool(expected) and _digests(folder) == expected
+            good = bool(expected) and _digests(folder) == expected
             os.utime(seal)
         except (OSError, ValueError):
             return False
@@ -140,7 +133,7 @@ class Cache:
         """Keep other processes from building the same; without locks they would only waste work."""
         with opened(self._folder("locks") / key[:2]) as file:
             with contextlib.suppress(OSError):
-                _lock(file.fileno())
+                lock(file, waits=True)
             yield
 
     def _trim(self, newest: Path) -> None:
@@ -158,18 +151,18 @@ class Cache:
                 excess -= size
 
 
-def _foreign(path: Path, *, above: bool = False) -> str:
-    """Why what is there may be somebody else's; `above` the cache, root may own it, and groups are trusted."""
-    state = path.lstat()
+def _refuse_foreign(path: Path, *, above: bool = False) -> None:
+    """Raises OSError for what may be somebody else's; `above` the cache, root may own it, and groups are trusted."""
+    state, wrong = path.lstat(), ""
     link, mode = stat.S_ISLNK(state.st_mode), stat.S_IMODE(state.st_mode)
     if link and not above:
-        return "is a link"
-    if sys.platform == "win32":
-        return ""
-    if state.st_uid != os.geteuid() and not (above and state.st_uid == 0):
-        return f"belongs to another user (number {state.st_uid})"
-    open_ = mode & 0o002 and not mode & stat.S_ISVTX if above else mode & 0o022
-    return f"can be written by others (mode {mode & 0o777:o})" if open_ and not link else ""
+        wrong = "is a link"
+    elif sys.platform != "win32" and state.st_uid != os.geteuid() and not (above and state.st_uid == 0):
+        wrong = f"belongs to another user (number {state.st_uid})"
+    elif sys.platform != "win32" and not link and mode & (0o002 if above else 0o022) and not (above and mode & 0o1000):
+        wrong = f"can be written by others (mode {mode & 0o777:o})"
+    if wrong:
+        raise PermissionError(errno.EACCES, f"{path} {wrong}")
 
 
 def _digests(folder: Path) -> dict[str, str]:
@@ -189,14 +182,3 @@ def _size(folder: Path) -> int:
     with contextlib.suppress(OSError):
         total = sum(file.stat().st_size for file in folder.iterdir())
     return total
-
-
-def _lock(descriptor: int) -> None:
-    if sys.platform == "win32":
-        import msvcrt
-
-        msvcrt.locking(descriptor, msvcrt.LK_LOCK, 1)
-    else:
-        import fcntl
-
-        fcntl.flock(descriptor, fcntl.LOCK_EX)
