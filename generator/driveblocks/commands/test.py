@@ -167,14 +167,12 @@ def _draw(run: "Run", folder: Path) -> None:
     from driveblocks.testing import record
 
     results = {folder / f"{result.program}-{result.engine}.svg": result for result in run.results if result.record}
-    try:
-        for path in results:
-            spare(path, record.PICTURE, "no `driveblocks test`")
-        if results:
-            folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        refuse(f"{error.filename}: cannot be written: {error.strerror}")
     for path, result in results.items():
+        try:
+            spare(path, record.PICTURE, "no `driveblocks test`")
+            folder.mkdir(parents=True, exist_ok=True)
+        except OSError as error:
+            refuse(f"{error.filename}: cannot be written: {error.strerror}")
         failed = next(outcome for outcome in result.bad if outcome.scene)
         drawn = record.picture(f"{result.program} on {result.engine}: {failed.words}", result.record)
         write(path, drawn)

@@ -212,9 +212,9 @@ class Exchanges:
     def _hears_itself(self, body: bytes) -> bool:
         """Whether this is the echo of a write of ours, whose reply has the same bytes and comes after it."""
         last = self._open
-        if last is None or last.asked.function not in ECHOED or body != last.body:
+        if last is None or body != last.body:
             return False
-        return self.echoes > 0 and not self._echo_came
+        return last.asked.function not in ECHOED or (self.echoes > 0 and not self._echo_came)
 
     def _echoed(self, frame: Frame, asking: Layout, given: Request) -> Said:
         self.echoes += 1
@@ -262,7 +262,8 @@ class Exchanges:
         given = self._open
         if given is None:
             return None
-        if given.body == asking.body and frame.begin_us - given.end_us < ECHO_US:
+        soon = frame.begin_us - given.end_us < ECHO_US or (self._own and given.asked.function not in ECHOED)
+        if given.body == asking.body and soon:
             return self._echoed(frame, asking, given)
         late = next((one for one in self._given if one.body == asking.body), None)
         if asking.function not in ECHOED or late is None or frame.begin_us - late.end_us >= FORGOTTEN_US:

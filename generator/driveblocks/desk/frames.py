@@ -39,6 +39,8 @@ class Cutter:
         self._came_us = self._ended_us = 0
         self.expects: frozenset[int] = frozenset()
         """Lengths of good frames that are the beginning of no longer one here."""
+        self.request = b""
+        """Ours, which an adapter may give back."""
 
     def take(self, now_us: int, data: bytes) -> Iterator[Frame]:
         """Bytes that have come, or none; the frames that are whole."""
@@ -81,6 +83,8 @@ class Cutter:
         end = self._bytes.find(b"\r\n") + 2
         if self._bytes[:1] == b":" and end > 1 and opened("ascii", self._bytes[:end]):
             return end
+        if self.request and self._bytes.startswith(self.request):
+            return len(self.request)
         size = max(size_of(self._bytes, each) for each in self.dialects)
         if size in self.expects:
             return size

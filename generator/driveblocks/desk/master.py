@@ -18,6 +18,8 @@ LOOK_US = 1_000
 HURRY_US = 50_000
 """How long a reply is waited for by those who do not wait: the request itself has to be sent."""
 READS = (1, 2, 3, 4)
+STRAYS = ("twice", "late or twice", "unasked")
+"""What nobody has asked for; so are damaged bytes beside a good reply, or while nothing is asked."""
 TRIES = 5
 BUSY_US = 200_000
 LEARNED = 8
@@ -26,8 +28,8 @@ SHORTEST_US = 200_000
 """How long it is waited for at least."""
 REPLY_US = 300_000
 """How long the reply to another master's last request is waited for."""
-REPEAT_US = 250_000
-"""A repeater gives a reply once more within this time."""
+REPEAT_US = 600_000
+"""A repeater, or a second unit at the same address, gives a reply once more within this time."""
 
 Kind = Literal["good", "refused", "strange", "unclear", "late", "foreign", "two", "damaged", "half", "echo", "silent"]
 """`strange`: a good frame of the unit that is no reply of its family; `unclear`: it may answer another request, too;
@@ -152,6 +154,7 @@ class Master:
         end = self._spoken_us = begin + self._wire_us(request)
         self._cutter.dialects = self.said.dialects
         self._cutter.expects = frozenset(2 + each for each in sizes(body, self._cutter.dialects))
+        self._cutter.request = request
         self._port.send(request)
         self.said.sent(Frame(begin, end, request, good=True))
         size = reply_size(body) if body[1] in READS else len(body)
@@ -200,6 +203,7 @@ class Master:
         if body[1] not in ECHOED or echo:
             self._replies += 1
         self.longest_us = max(self.longest_us, after)
+        self.strays += any(each.role == "damaged" for each in heard)
         kind: Kind = "refused" if said.role == "refusal" else "good"
         return Reply(kind, layout, body[0], after, echo, body, self._data)
 
@@ -241,7 +245,7 @@ class Master:
             self._spoken_us, self._data = now, self._data + some
         heard = [self.said.hear(each) for each in self._cutter.take(now, some)]
         self.lates += sum(each.role == "late" for each in heard)
-        self.strays += sum(each.role in ("twice", "late or twice", "unasked") for each in heard)
+        self.strays += sum(each.role in STRAYS or (each.role == "damaged" and not self.said.waits) for each in heard)
         return heard
 
     def _wire_us(self, frame: bytes) -> int:

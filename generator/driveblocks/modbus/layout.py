@@ -33,6 +33,8 @@ COIL_ON = 0xFF00
 """What is written to a coil that becomes 1 (MODBUS Application Protocol V1.1b3, 6.5)."""
 
 KNOWN = frozenset({1, 2, 3, 4, 5, 6, 7, 8, 15, 16})
+IDENTIFY = frozenset({17, 43})
+"""What a unit says of itself: no length of a request or reply is known, but that of a refusal."""
 
 
 @dataclass(frozen=True)
@@ -228,6 +230,8 @@ def _surplus(data: bytes) -> Iterator[Part]:
 
 def expected_sizes(data: bytes, dialect: Dialect) -> Iterator[int]:
     """How long a body that begins like this may be; nothing for functions that are not known here."""
+    if len(data) >= 2 and data[1] - dialect.added in IDENTIFY:
+        yield 3
     if len(data) < 2 or not {data[1], data[1] - dialect.added} & KNOWN:
         return
     for direction in DIRECTIONS:

@@ -129,12 +129,11 @@ def _staged(folder: Path, texts: Mapping[str, str | None]) -> _Journal:
     _make_folders(work, [JOURNAL], work)
     _make_folders(work / NEW, new, folder)
     for name, text in new.items():
-        _put(work / NEW / name, text, folder / name, sync=there[name] is not None)
+        with _about(folder / name):  # what replaces nothing need not be waited for: that takes seconds for a library
+            files.put(work / NEW / name, text, new=True, sync=there[name] is not None)
     changed = {name: (there[name], text_digest(new[name]) if name in new else None) for name in texts}
     folders = [name for name in parents(new) if not (folder / name).is_dir()]
-    unfinished = work / f"{JOURNAL}.new"
-    _put(unfinished, json.dumps({"files": changed, "folders": folders}), work / JOURNAL, sync=any(there.values()))
-    _move(unfinished, work / JOURNAL, work / JOURNAL)
+    files.put(work / JOURNAL, json.dumps({"files": changed, "folders": folders}), sync=any(there.values()))
     return _Journal(changed, folders)
 
 
@@ -146,15 +145,6 @@ def _about(path: Path) -> Iterator[None]:
     except OSError as error:
         error.filename = str(path)
         raise
-
-
-def _put(path: Path, text: str, target: Path, *, sync: bool) -> None:
-    """Write a text for a file that it will become. Raises OSError that names it.
-
-    What replaces something else must be on the disk itself by then; to wait for that takes seconds for a whole library.
-    """
-    with _about(target):
-        files.put(path, text, new=True, sync=sync)
 
 
 def _move(source: Path, target: Path, known: Path) -> None:

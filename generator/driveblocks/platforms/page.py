@@ -2,12 +2,11 @@
 
 import re
 from collections import Counter
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from collections.abc import Sequence
 from pathlib import Path
 
 from driveblocks.platforms import cost
-from driveblocks.platforms.part import SHARED, Part, Shelf, Volume
+from driveblocks.platforms.part import SHARED, Shelf, Volume
 from driveblocks.render.environment import ABI, render
 from driveblocks.render.library import CHINESE, FRAMES, LINE32, METER, PARAMETERS
 from driveblocks.render.motor import SCAN_MS
@@ -29,22 +28,6 @@ WHAT = {
 
 PORT = {"": "the serial port, with a line of 8 drives", LINE32: "32 drives at it; needs `DriveBlocks_Line32`"}
 """What the files of a port are for."""
-
-
-@dataclass(frozen=True)
-class Row:
-    """A volume of what is shared, for a table: its name, what it is for, how much there is in it."""
-
-    name: str
-    what: str
-    needed: bool
-    count: dict[str, int]
-    structures: int
-    """Types that are no arrays: those that TIA Portal shows."""
-    largest: tuple[str, int] | None
-    """Its block with most data, and the bytes; None where it has none, or none that is typed."""
-    code: int | None
-    """KiB; None where nobody measured it."""
 
 
 def page(platform: str, shelf: Shelf, volumes: Sequence[Volume], masters: bool = False) -> dict[str, str]:
@@ -69,16 +52,17 @@ def page(platform: str, shelf: Shelf, volumes: Sequence[Volume], masters: bool =
     return texts if len(shelf.drives) > 1 else {name: _FAMILY.sub(first.prefix, text) for name, text in texts.items()}
 
 
-def _row(one: Volume) -> Row:
+def _row(one: Volume) -> dict[str, object]:
+    """A volume of what is shared, for a table; of a port, which is not typed, nobody knows the data and the code."""
+    blocks = [part.element for part in one.blocks if isinstance(part.element, FunctionBlock)]
     specs = [part.element.spec for part in one.types if isinstance(part.element, TypeDecl)]
-    structures = sum(not isinstance(spec, ArraySpec) for spec in specs)
-    what = WHAT[one.extra] if one.base == SHARED else PORT[one.extra]
-    most = cost.largest(part.element for part in one.blocks if isinstance(part.element, FunctionBlock))
-    code = cost.CODE_KIB[one.extra] if one.base == SHARED else None
-    return Row(one.name, what, not one.extra, census(one.parts), structures, most, code)
-
-
-def census(parts: Iterable[Part]) -> dict[str, int]:
-    """How many types, functions, blocks and programs there are."""
-    found = Counter(KINDS[getattr(part.element, "word", "TYPE")] for part in parts)
-    return {kind: found[kind] for kind in KINDS.values()}
+    counted = Counter(KINDS[getattr(part.element, "word", "TYPE")] for part in one.parts)
+    return {
+        "name": one.name,
+        "what": WHAT[one.extra] if one.base == SHARED else PORT[one.extra],
+        "needed": not one.extra,
+        "count": {kind: counted[kind] for kind in KINDS.values()},
+        "structures": sum(not isinstance(spec, ArraySpec) for spec in specs),  # those that TIA Portal shows
+        "largest": cost.largest(blocks),
+        "code": cost.CODE_KIB[one.extra] if one.base == SHARED else None,
+    }

@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 from driveblocks.desk.master import Master, Reply
+from driveblocks.desk.site.register import rows
 from driveblocks.maps.form import Span, address_text
 from driveblocks.maps.model import Drive, Identity
 from driveblocks.maps.plan import dialect, plan, read_request
@@ -13,6 +14,8 @@ from driveblocks.maps.polls import Poll, identity_read, polls
 from driveblocks.simulator.pattern import of_condition
 from driveblocks.simulator.refusal import codes
 
+SETTINGS = 4
+"""Parameters that are tried."""
 UNLISTED = 12
 """Registers that no table lists: a unit that answers all of these answers everything."""
 SAYS = (b"\x11", b"\x2b\x0e\x01\0")
@@ -59,16 +62,13 @@ def judge(ask: Ask, drive: Drive, unit: int, others: Mapping[str, Drive]) -> Jud
         if strange := next(_strange(drive, each, reply), ""):
             return found.against(f"what unit {unit} gives is no {drive.prefix}: {strange}", reply)
         found.note(f"{'gives' if reply.words else 'does not give'} {_what(each)}", reply)
+    if none := _settings(ask, drive, unit):
+        return found.against(f"unit {unit} gives none of the parameters that {drive.prefix} has", none)
     found.refused = ", ".join(_what(each) for each, reply in every if not reply.words)
     if not found.refused and not _refuses_some(ask, drive, unit):
         found.family = "unknown"
-        return _named(ask, drive, unit, others, found)
-    weak = bool(found.refused) or not _listed(drive, every)
-    for name, other in others.items():
-        if rival := _as_rival(ask, drive, unit, other):
-            if weak and (found.refused or _listed(other, rival)):
-                return found.against(f"unit {unit} answers as {name} does, and not as {drive.prefix}", rival[-1][1])
-            found.note(f"answers what {name} reads, too", rival[-1][1])
+    if why := _rival(ask, (drive, unit), others, found, weak=bool(found.refused) or not _listed(drive, every)):
+        return found.against(*why)
     return _named(ask, drive, unit, others, found)
 
 
@@ -86,6 +86,17 @@ def stranger(master: Master, drive: Drive, unit: int, others: Mapping[str, Drive
     gone = judged.family == "other" and not ask(drive, first).answered
     master.said.anyone = drive
     return "" if gone else judged.why
+
+
+def _settings(ask: Ask, drive: Drive, unit: int) -> Reply | None:
+    """The last reply, where none of some parameters that the map lists is given."""
+    listed = [each.address for each in rows(drive) if each.set and each.register is not None]
+    reply = None
+    for address in listed[:: max(1, len(listed) // SETTINGS)][:SETTINGS]:
+        reply = ask(drive, _request(unit, drive, Poll(3, address, 1, fast=False)))
+        if reply.words:
+            return None
+    return reply
 
 
 def _what(poll: Poll) -> str:
@@ -107,11 +118,15 @@ def _identified(ask: Ask, drive: Drive, unit: int, identity: Identity, read: Pol
 
 
 def _strange(drive: Drive, poll: Poll, reply: Reply) -> Iterator[str]:
-    """Words of the status that the manual does not list."""
-    for address, word in zip(span_of(poll), reply.words if poll.fast else (), strict=False):
+    """Words of the status, and a fault code, that the manual does not list."""
+    codes = {each.code for each in drive.faults.codes}
+    for address, word in zip(span_of(poll), reply.words, strict=False):
         row = drive.register_at(address)
-        if row and row.values and not row.masks and word not in {each.value for each in row.values}:
+        if poll.fast and row and row.values and not row.masks and word not in {each.value for each in row.values}:
             yield f"{address_text(address)} is {word}, which its manual does not list"
+        code = drive.faults.code_in(address, word) if address == drive.faults.present else 0
+        if code and codes and code not in codes:
+            yield f"{address_text(address)} has the fault {code}, which its manual does not list"
 
 
 def _listed(drive: Drive, every: Read) -> bool:
@@ -133,9 +148,27 @@ def _as_rival(ask: Ask, drive: Drive, unit: int, other: Drive) -> Read:
     return found
 
 
+def _rival(
+    ask: Ask, one: tuple[Drive, int], others: Mapping[str, Drive], found: Judgement, *, weak: bool
+) -> tuple[str, Reply] | None:
+    """Another family as which the unit answers, where its own evidence is `weak`; every other rival is noted."""
+    drive, unit = one
+    own = {*map(span_of, polls(drive))}
+    for name, other in others.items():
+        if {*map(span_of, polls(other))} <= own:
+            found.evidence.append(f"{name} reads the same registers: compare the plate")
+        elif rival := _as_rival(ask, drive, unit, other):
+            if weak and found.family == "fits" and (found.refused or _listed(other, rival)):
+                return f"unit {unit} answers as {name} does, and not as {drive.prefix}", rival[-1][1]
+            found.note(f"answers what {name} reads, too", rival[-1][1])
+    return None
+
+
 def _refuses_some(ask: Ask, drive: Drive, unit: int) -> bool:
     """Whether a unit refuses any register that its map does not list: one that answers all has no family to be seen."""
-    spans = (Poll(3, each, 1, fast=True) for each in unlisted(drive)[:UNLISTED])
+    free = unlisted(drive)
+    step = max(1, len(free) // UNLISTED)
+    spans = (Poll(3, each, 1, fast=True) for each in free[step // 2 :: step][:UNLISTED])
     return any(not ask(drive, _request(unit, drive, each)).words for each in spans)
 
 
@@ -164,10 +197,11 @@ def _is_of(drive: Drive, says: str) -> bool:
 
 
 def unlisted(drive: Drive) -> list[int]:
-    """Registers that come after the tables of a map, and are in none of its tables and areas."""
+    """Registers that are in none of a map's tables and areas: those after a table first, then some all over."""
     taken = [*plan(drive).readable, *plan(drive).writable, *(each.addresses for each in drive.areas)]
     after = (each.last + 1 for each in plan(drive).readable)
-    return [each for each in after if each < 0xFFFF and not any(each in span for span in taken)]
+    every = dict.fromkeys((*after, *range(0x0777, 0xFFFF, 0x1111)))
+    return [each for each in every if each < 0xFFFF and not any(each in span for span in taken)]
 
 
 def span_of(poll: Poll) -> Span:

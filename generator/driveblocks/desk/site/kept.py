@@ -1,9 +1,9 @@
 """`site.yaml`: what was found out about each drive of a machine, an entry per label; a file of its user's."""
 
 import json
+import os
 import re
 from collections.abc import Iterator
-from contextlib import suppress
 from dataclasses import dataclass
 from itertools import count
 from pathlib import Path
@@ -169,12 +169,10 @@ def write(path: Path, about: About, found: Found) -> None:
 
 def copied(path: Path) -> Path:
     """A copy of a file beside it, under a name that nothing has. Raises OSError."""
-    for number in count(1):
-        copy = path.with_name(f"{path.stem}.{number}{path.suffix}")
-        with suppress(FileExistsError):
-            files.put(copy, files.data(path), new=True, mode=path.stat().st_mode & 0o777)
-            return copy
-    raise AssertionError
+    names = (path.with_name(f"{path.stem}.{number}{path.suffix}") for number in count(1))
+    copy = next(each for each in names if not os.path.lexists(each))
+    files.put(copy, files.data(path), new=True, mode=path.stat().st_mode & 0o777)
+    return copy
 
 
 def try_out(path: Path) -> None:

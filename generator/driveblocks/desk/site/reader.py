@@ -6,16 +6,17 @@ from dataclasses import dataclass, replace
 
 from driveblocks.desk.clock import Clock
 from driveblocks.desk.exchange import LATE_US, Exchanges
-from driveblocks.desk.master import Master, Speech
+from driveblocks.desk.master import REPEAT_US, Master, Speech
 from driveblocks.desk.port import Port
 from driveblocks.desk.run.guard import Guard
-from driveblocks.desk.site.family import stranger
+from driveblocks.desk.site.family import span_of, stranger
 from driveblocks.desk.site.register import rows, spans
 from driveblocks.desk.site.saved import Word
 from driveblocks.maps.form import Span, address_text
 from driveblocks.maps.model import Drive
 from driveblocks.maps.pair import whole
 from driveblocks.maps.plan import most, read_request
+from driveblocks.maps.polls import identity_read, polls
 from driveblocks.simulator.refusal import codes
 
 PAUSE_US = 500_000
@@ -85,8 +86,8 @@ class Reader:
         self._most = most(one.drive, speech.mode).read
         self._busy = codes(one.drive)["busy"]
         self._patience_us = patience_us
-        self._good: Span | None = None
-        """A run that the drive has answered."""
+        self._good = span_of(identity_read(one.drive) or polls(one.drive)[0])
+        """A run that the drive answers."""
         self._asked = 0
         """Words of the last run that was asked for."""
         self._fresh: list[tuple[int, Span, dict[int, Word]]] = []
@@ -103,11 +104,24 @@ class Reader:
         missing = [row.address for row in rows(self._drive) if row.address not in words]
         left = spans(self._drive, missing, self._most)[::-1]
         try:
+            self._listen(left)
             self._read(left, words, keep, wait)
         except LostError:
             if self.master.strays == self._strays and self._believe(words):
                 keep()
             raise
+
+    def _listen(self, left: list[Span]) -> None:
+        """Whether a repeater or a second unit answers, too: it does so from the first reply on."""
+        for _ in range(2 if left else 0):
+            if self._answer(self._good) == SILENT:
+                return
+            self.master.rest(REPEAT_US)
+            if self.master.strays == self._strays:
+                return
+            self._strays = self.master.strays
+        if left:
+            raise StraysError(f"two replies come to each request to unit {self._unit}: {STRAYS}")
 
     def _read(
         self, left: list[Span], words: dict[int, Word], keep: Callable[[], None], wait: Callable[[str], None]
@@ -136,7 +150,7 @@ class Reader:
         if last > span.first:
             left.append(Span(last, span.last))
             return Span(span.first, last - 1)
-        if self._good is not None and len(self._good) != len(span):
+        if len(self._good) != len(span):
             self._answer(self._good)
         return span
 
@@ -196,9 +210,9 @@ class Reader:
     def _answers(self, wait: Callable[[str], None]) -> bool:
         """Wait until a run that was answered before is answered again. Raises LostError."""
         begun = self._clock.now_us()
-        while self._good is None or self._answer(self._good) == SILENT:
+        while self._answer(self._good) == SILENT:
             waited = self._clock.now_us() - begun
-            if self._good is None or waited >= self._patience_us:
+            if waited >= self._patience_us:
                 raise LostError(self.master.error or f"unit {self._unit} does not answer")
             wait(f"{self.master.error or 'no reply'}; waiting for {(self._patience_us - waited) // 1_000_000} s more")
             self._clock.sleep_until(self._clock.now_us() + PAUSE_US)

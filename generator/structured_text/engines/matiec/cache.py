@@ -15,11 +15,11 @@ import shutil
 import stat
 import sys
 import time
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Mapping
 from pathlib import Path
 
 from structured_text.engines.engine import EngineError
-from structured_text.files import beside, data, lock, opened, put
+from structured_text.files import Output, beside, data, lock, opened, put
 
 SEAL = "seal.json"
 LIMIT_BYTES = 256 << 20
@@ -82,9 +82,8 @@ class Cache:
         for step in (*reversed(lexical.parents), lexical):
             step.mkdir(mode=0o700, exist_ok=True)
         real = Path(os.path.realpath(lexical))
-        for step in {lexical, *lexical.parents, *real.parents}:
-            _refuse_foreign(step, above=True)
-        _refuse_foreign(real)
+        for step in {lexical, *lexical.parents, real, *real.parents}:
+            _refuse_foreign(step, above=step != real)
         for name in names:
             folder /= name
             folder.mkdir(mode=0o700, exist_ok=True)
@@ -128,13 +127,12 @@ class Cache:
             return False
         return good
 
-    @contextlib.contextmanager
-    def _locked(self, key: str) -> Iterator[None]:
-        """Keep other processes from building the same; without locks they would only waste work."""
-        with opened(self._folder("locks") / key[:2]) as file:
-            with contextlib.suppress(OSError):
-                lock(file, waits=True)
-            yield
+    def _locked(self, key: str) -> Output:
+        """What keeps other processes from building the same; without locks they would only waste work."""
+        file = opened(self._folder("locks") / key[:2])
+        with contextlib.suppress(OSError):
+            lock(file, waits=True)
+        return file
 
     def _trim(self, newest: Path) -> None:
         """Remove the longest unused entries beyond the limit, and what killed processes have left."""
