@@ -2,7 +2,6 @@
 
 import errno
 import functools
-import io
 import json
 import os
 from collections.abc import Callable
@@ -21,7 +20,8 @@ NEW = {"page": "new page", "a/kept": "kept", "a/changed": "new", "n/e/w": "fresh
 MINE = {"a/notes": "mine", "gone/notes": "mine, too"}
 EMPTIED = ["gone", "gone/b"]
 Fail = Callable[[int, Path | int], None]
-STEPS = [(os, name) for name in ("mkdir", "rename", "replace", "unlink", "rmdir", "fsync")] + [(io, "open")]
+ON_DISK = ("mkdir", "rename", "replace", "unlink", "rmdir", "fsync", "open")
+STEPS: list[tuple[Any, str]] = [*((os, name) for name in ON_DISK), (files.Output, "add")]
 
 
 class Killed(BaseException):
