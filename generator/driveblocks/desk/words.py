@@ -9,8 +9,6 @@ from structured_text import files
 
 NO_PORT = "--port names no port; write one such as /dev/ttyUSB0 or COM3"
 LOOPBACK = ("", "127.0.0.1", "localhost")
-HEAD = 4096
-"""So much of a file says who wrote it."""
 
 
 class Refused(Exception):  # noqa: N818  (bad input is no error of the program)
@@ -37,7 +35,7 @@ def spare(path: Path, head: bytes, writer: str) -> None:
     """Raises OSError for a file that holds anything but what `writer` writes, which begins with the pattern `head`."""
     if not path.is_file():
         return
-    begin = files.head(path, HEAD)
+    begin = files.head(path, 4096)
     if begin and not re.match(head, begin):
         why = f"there is a file that {writer} has written; name a new one, or move it away"
         raise OSError(errno.EEXIST, why, str(path))

@@ -27,13 +27,11 @@ def read(path: Path) -> str:
     except files.BadFile as error:
         right = error.right or "name the readable file of one drive family"
         raise MapError([Problem(str(path), *error.at, f"this file cannot be read: {error.why}", right)]) from None
-    hidden = [_hidden(path, match) for match in islice(HIDDEN.finditer(text), _MOST_HIDDEN)]
-    if hidden:
-        raise MapError(hidden)
+    if hidden := [*islice(HIDDEN.finditer(text), _MOST_HIDDEN)]:
+        wrong, right = (
+            "this file holds the character U+{:04X}, which has no place in a map",
+            "remove it, or type a plain one",
+        )
+        places = [(files.place(text[: each.start()]), ord(each[0])) for each in hidden]
+        raise MapError([Problem(str(path), *at, wrong.format(code), right) for at, code in places])
     return text
-
-
-def _hidden(path: Path, match: re.Match[str]) -> Problem:
-    wrong = f"this file holds the character U+{ord(match[0]):04X}, which has no place in a map"
-    line, column = files.place(match.string[: match.start()])
-    return Problem(str(path), line, column, wrong, "remove it, or type a plain one")

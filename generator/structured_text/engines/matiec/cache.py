@@ -140,7 +140,7 @@ class Cache:
             for folder in (self.root / "making").iterdir():
                 if time.time() - folder.stat().st_mtime > _ABANDONED_SECONDS:
                     shutil.rmtree(folder, ignore_errors=True)
-            entries = [(_used(folder), _size(folder), folder) for folder in (self.root / "entries").glob("*/*")]
+            entries = [(*_use(folder), folder) for folder in (self.root / "entries").glob("*/*")]
             excess = sum(size for _, size, _ in entries) - self._limit
             for _, size, folder in sorted(entries):
                 if excess <= 0 or folder == newest:
@@ -168,15 +168,8 @@ def _digests(folder: Path) -> dict[str, str]:
     return {file.name: hashlib.sha256(data(file)).hexdigest() for file in files}
 
 
-def _used(folder: Path) -> float:
-    try:
-        return (folder / SEAL).stat().st_mtime
-    except OSError:
-        return 0.0
-
-
-def _size(folder: Path) -> int:
-    total = 0
+def _use(folder: Path) -> tuple[float, int]:
+    """When an entry was used last, and its size; never and nothing for one that is not whole."""
     with contextlib.suppress(OSError):
-        total = sum(file.stat().st_size for file in folder.iterdir())
-    return total
+        return (folder / SEAL).stat().st_mtime, sum(file.stat().st_size for file in folder.iterdir())
+    return 0.0, 0
