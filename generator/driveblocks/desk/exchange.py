@@ -2,7 +2,7 @@
 
 from collections import Counter, deque
 from collections.abc import Mapping
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field, fields, replace
 from typing import Literal
 
 from driveblocks.desk.frames import Frame
@@ -81,6 +81,8 @@ class Request:
     unsure: bool = False
     """It may be the reply to what was not heard."""
     mode: Mode = "rtu"
+    spoilt: bool = False
+    """Damaged bytes came after it, which may have been its reply."""
 
     def may_be_taken_for(self, other: "Request") -> bool:
         """Whether the reply to it could be one to another request as well; a refusal always could."""
@@ -139,7 +141,7 @@ class Exchanges:
         """At the beginning, and after damaged bytes: what was asked before is not known."""
         self._spoilt = self._echo_came = False
         """Damaged bytes, or the echo, came since our last request."""
-        self._given = deque[Request](maxlen=8)
+        self._given = deque[Request](maxlen=32 if own else 8)
         """Requests without a reply."""
         self._last: tuple[Request, bytes] | None = None
         """The last request that was answered, and its reply."""
@@ -296,7 +298,7 @@ class Exchanges:
             self._poll(given).damaged += 1
             if not self._own:
                 return
-        self._given.append(given)
+        self._given.append(replace(given, spoilt=self._spoilt))
         if self._own:
             self._poll(given).unanswered += not self._spoilt
             return
@@ -313,6 +315,8 @@ class Exchanges:
         if self._own and any(self._is_owed(each, reply, frame) for each in self._given):
             self._unit(one).unclear += 1
             return Said(frame, "unclear", reply)
+        if self._own:
+            self._still_owe(one)
         poll, took = self._poll(one), frame.begin_us - one.end_us
         if not self._unsure:  # else it may be the reply to a request that was damaged
             poll.shortest_us = min(took, poll.shortest_us) if poll.replies + poll.refusals else took
@@ -325,6 +329,13 @@ class Exchanges:
         self._before = self._last[0] if self._last else None
         self._open, self._last, self._unsure, self._spoilt = None, (one, reply.body), False, False
         return Said(frame, "refusal" if reply.refusal else "reply", reply, one.asked)
+
+    def _still_owe(self, one: Request) -> None:
+        """Of two requests with the same bytes the first is the one that is answered first."""
+        first = next((each for each in self._given if each.body == one.body and not each.spoilt), None)
+        if first is not None and one.end_us - first.end_us < LATE_US:
+            self._given.remove(first)
+            self._given.append(one)
 
     def _stray(self, frame: Frame, reply: Layout) -> Said:
         """A reply that answers no open request."""
@@ -436,6 +447,6 @@ def quality(said: Exchanges) -> Quality:
     unclear = sum(unit.unclear for unit in said.units.values())
     return Quality(
         sum(each.count for each in polls), sum(each.replies for each in polls), sum(each.refusals for each in polls),
-        sum(each.damaged for each in polls), odd["late"] + odd["late or twice"],
-        odd["twice"] + odd["unasked"] + unclear, sum(max(0, each.unanswered) for each in polls),
+        sum(each.damaged for each in polls), odd["late"] + odd["late or twice"] + unclear,
+        odd["twice"] + odd["unasked"], sum(max(0, each.unanswered) for each in polls),
     )  # fmt: skip

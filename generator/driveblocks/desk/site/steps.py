@@ -6,7 +6,8 @@ from dataclasses import replace
 from decimal import Decimal, InvalidOperation
 from typing import get_args
 
-from driveblocks.desk.exchange import LATE_US
+from driveblocks.desk.exchange import LATE_US, Exchanges, quality
+from driveblocks.desk.master import Reply
 from driveblocks.desk.site.family import unlisted
 from driveblocks.desk.site.found import Answer, Asker, Found, Measured, Set, Tens
 from driveblocks.desk.site.hunt import first_read
@@ -122,13 +123,20 @@ def measure(talk: Talk, asker: Asker, reads: int = READS) -> Measured:
 
 
 def _holds(talk: Talk, gap_ms: int) -> bool:
-    """Whether the drive answers each of some reads that begin so soon after its reply."""
-    span = first_read(talk.drive)
+    """Whether the drive answers each of some reads that begin so soon after its reply; they say nothing of the line."""
+    span, master = first_read(talk.drive), talk.line.master
+    kept, master.said = (
+        master.said,
+        Exchanges({}, talk.drive, own=True),
+    )
     try:
         return all(talk.read(span, None, 1000 * gap_ms).answered for _ in range(GAP_READS))
     except EndedError:  # an adapter was still handing over the reply
-        talk.line.master.rest(LATE_US)
         return False
+    finally:
+        if quality(master.said).silent:
+            master.rest(LATE_US)
+        master.said = kept
 
 
 def _longest_read(talk: Talk) -> int:
@@ -144,7 +152,10 @@ def _unlisted(talk: Talk) -> str:
     address = next(iter(unlisted(talk.drive)), None)
     if address is None:
         return "not tried"
-    reply = talk.read(Span(address, address))
+    try:
+        reply = talk.steady(Span(address, address))
+    except EndedError:
+        reply = Reply("silent")
     return f"{address_text(address)}: {'words' if reply.words else 'refused' if reply.answered else 'no reply'}"
 
 
