@@ -135,6 +135,7 @@ def test_a_library_lists_every_file_of_its_folder_once_and_no_two_own_a_name() -
         path = f"{'shared' if name == 'DriveBlocks' else 'families'}/{name}.plcproj"
         assert sorted(listed(path)) == sorted(owned(name))
         assert projects()[path].name == name
+        assert f"<Title>{name}</Title>" in written()[path]
         assert not any(projects()[path].links)
         names.update(PurePosixPath(each).stem.upper() for each in listed(path))
     assert max(names.values()) == 1
