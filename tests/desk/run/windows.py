@@ -13,7 +13,8 @@ missing = {
     + ["alarm", "pause", "pthread_kill", "pthread_sigmask", "setitimer", "siginterrupt", "sigwait", "sigpending"],
     os: ["openpty", "ttyname", "ctermid", "set_blocking", "get_blocking", "fork", "forkpty", "wait", "killpg", "nice",
          "getuid", "geteuid", "getgid", "getpgid", "getpgrp", "setsid", "uname", "getloadavg", "sysconf", "mkfifo",
-         "chown", "pread", "pwrite", "sendfile", "sched_getaffinity", "sched_setaffinity", "sched_yield"],
+         "chown", "fchown", "fchmod", "O_NOFOLLOW", "O_NONBLOCK", "pread", "pwrite", "sendfile",
+         "sched_getaffinity", "sched_setaffinity", "sched_yield"],
     select: ["poll", "epoll"],
     socket: ["AF_UNIX", "SO_REUSEPORT"],
 }
