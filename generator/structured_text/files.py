@@ -123,58 +123,54 @@ def put(path: Path, content: str | bytes, *, new: bool = False, sync: bool = Tru
     """
     given = content.encode() if isinstance(content, str) else content
     try:
-        there = path.stat() if os.path.lexists(path) and not new else None
-        if there and not os.access(path, os.W_OK):
-            raise PermissionError(errno.EACCES, os.strerror(errno.EACCES))
         if new:
             _made(path, given, sync, mode)
-        elif there and not stat.S_ISREG(there.st_mode):
+        elif os.path.lexists(path) and not stat.S_ISREG(path.stat().st_mode):
             with opened(path, waits=False) as file:
                 file.add(given)
         else:
-            _replaced(Path(os.path.realpath(path)), given, sync, there, mode)
+            with beside(path, mode) as (file, part):
+                file.add(given)
+                if sync:
+                    os.fsync(file.fileno())
+                file.close()
+                part.replace(os.path.realpath(path))
     except OSError as error:
         raise OSError(error.errno, error.strerror, str(path)) from None
 
 
 def _made(path: Path, given: bytes, sync: bool, mode: int) -> None:
-    with opened(path, new=True, mode=mode) as file:
-        try:
+    file = opened(path, new=True, mode=mode)
+    try:
+        with file:
             file.add(given)
             if sync:
                 os.fsync(file.fileno())
-        except BaseException:
-            file.close()
-            path.unlink()
-            raise
-
-
-def _replaced(path: Path, given: bytes, sync: bool, there: os.stat_result | None, mode: int) -> None:
-    with beside(path, 0o600 if there else mode) as (file, part):
-        file.add(given)
-        if there and hasattr(os, "fchmod"):  # Windows has none
-            with suppress(OSError):
-                os.fchown(file.fileno(), there.st_uid, there.st_gid)
-            os.fchmod(file.fileno(), stat.S_IMODE(there.st_mode))
-        if sync:
-            os.fsync(file.fileno())
-        file.close()
-        part.replace(path)
+    except BaseException:
+        path.unlink()
+        raise
 
 
 @contextmanager
 def beside(path: Path, mode: int = 0o666) -> Iterator[tuple[Output, Path]]:
-    """A new file in the folder of another, under a name that cannot be guessed; removed if it is left there.
+    """What is to replace a file, with its mode, under a name that cannot be guessed; removed if it is left there.
 
-    Raises OSError.
+    Raises OSError, also for a link to nothing and for a file that may not be written.
     """
-    part = path.with_name(f".{path.name[:40]}.{secrets.token_hex(8)}")
-    with opened(part, new=True, mode=mode) as file:
-        try:
+    there = path.stat() if os.path.lexists(path) else None
+    if there and not os.access(path, os.W_OK):
+        raise PermissionError(errno.EACCES, os.strerror(errno.EACCES))
+    part = Path(os.path.realpath(path)).with_name(f".{path.name[:40]}.{secrets.token_hex(8)}")
+    file = opened(part, new=True, mode=0o600 if there else mode)
+    try:
+        with file:
+            if there and hasattr(os, "fchmod"):  # Windows has none
+                with suppress(OSError):
+                    os.fchown(file.fileno(), there.st_uid, there.st_gid)
+                os.fchmod(file.fileno(), stat.S_IMODE(there.st_mode))
             yield file, part
-        finally:
-            file.close()
-            part.unlink(missing_ok=True)
+    finally:
+        part.unlink(missing_ok=True)
 
 
 def sources(named: Sequence[Path]) -> tuple[list[tuple[str, str]], list[str]]:

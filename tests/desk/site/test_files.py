@@ -48,6 +48,19 @@ def test_what_is_prepared_beside_a_file_is_neither_written_nor_removed(tmp_path:
     assert {*tmp_path.iterdir()} == {path, victim, trap}
 
 
+@pytest.mark.skipif(sys.platform == "win32", reason="links are others there")
+def test_what_could_not_be_written_at_the_end_is_refused_at_the_start(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "lost.yaml").symlink_to(tmp_path / "nowhere")
+    (tmp_path / "loop.yaml").symlink_to(tmp_path / "loop.yaml")
+    (tmp_path / "mine.yaml").write_text("", encoding="utf-8")
+    monkeypatch.setattr(os, "access", lambda path, _: Path(path).name != "mine.yaml")
+    for name in ("lost", "loop", "mine"):
+        with pytest.raises(OSError, match=r"No such file|symbolic links|Permission denied"):
+            kept.try_out(tmp_path / f"{name}.yaml")
+
+
 @pytest.mark.parametrize("end", ["...\n", "...", "... # the end\n", "...\r\n", "...\n# more\n"])
 @pytest.mark.parametrize("label", ["Pump", "Fan"])
 def test_a_file_that_says_where_it_ends_is_written(tmp_path: Path, end: str, label: str) -> None:

@@ -177,7 +177,7 @@ def copied(path: Path) -> Path:
 
 def try_out(path: Path) -> None:
     """Raise OSError where a file could not be written."""
-    with files.beside(path.resolve()):
+    with files.beside(path):
         pass
 
 
