@@ -42,6 +42,7 @@ class Controller:
         """Frames that the guard let not pass."""
         self.met: set[int] = set()
         """Units that have answered, or to which anything but a read or a stop was sent."""
+        self._came: bytes | None = None
         self._asked = 0
         """The unit that was asked last."""
         self._called_ms: int | None = None
@@ -52,11 +53,18 @@ class Controller:
         self._port, self._free = port, free
         self._set("PORTLATEMS", port.late_ms)
 
-    def scan(self, now_us: int) -> None:
-        """Scan once. Raises ScanError."""
+    def receive(self) -> None:
+        """Take what has come; before the time of the scan is taken, so that nothing came after it."""
         if some := self._port.receive():
             self.met.add(self._asked)
-        self._mailbox.give(some)
+        self._came = (self._came or b"") + some
+
+    def scan(self, now_us: int) -> None:
+        """Scan once. Raises ScanError."""
+        if self._came is None:
+            self.receive()
+        self._mailbox.give(self._came or b"")
+        self._came = None
         self._set("PORTERRORID", PORT_FAILS if self._port.error else 0)
         self._time(now_us)
         self.instance.scan((now_us - self._begun_us) * 1000)

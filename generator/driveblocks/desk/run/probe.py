@@ -3,10 +3,13 @@
 import threading
 from collections.abc import Sequence
 
+from driveblocks.desk.clock import VirtualClock
+from driveblocks.desk.port import WirePort
 from driveblocks.desk.run import source, wiring
 from driveblocks.desk.run.controller import Controller
-from driveblocks.desk.words import Refused
+from driveblocks.desk.wire import Wire
 from driveblocks.maps.collection import Source as Map
+from driveblocks.maps.problem import Refused
 from structured_text.engines.engine import BuildError, ScanError
 
 
@@ -30,7 +33,7 @@ def controller(loaded: source.Loaded, scan_us: int) -> Controller:
 def probed(loaded: source.Loaded, scan_us: int, limit_us: int) -> Controller:
     """The program after one scan, which may take `limit_us`. Raises Refused."""
     probe = controller(loaded, scan_us)
-    probe.connect(_Nowhere(), None)
+    probe.connect(WirePort(Wire([], 9600, 10), VirtualClock()), None)
     errors: list[ScanError] = []
 
     def scan() -> None:
@@ -48,19 +51,3 @@ def probed(loaded: source.Loaded, scan_us: int, limit_us: int) -> Controller:
     for error in errors:
         raise Refused(str(error)) from None
     return probe
-
-
-class _Nowhere:
-    """A port at which nobody is."""
-
-    late_ms = 0
-    error = ""
-
-    def send(self, data: bytes) -> None:
-        pass
-
-    def receive(self) -> bytes:
-        return b""
-
-    def close(self) -> None:
-        pass

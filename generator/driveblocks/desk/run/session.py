@@ -162,7 +162,8 @@ class Session:
                 self.told.put(f"{since / 1e6:5.1f} s  {says}")
         for step in self.steps:
             step(since)
-        self.controller.scan(now_us)
+        self.controller.receive()
+        self.controller.scan(self._clock.now_us())
         self._gate.check()
         self._record(since)
         if since - self._looked_us >= LOOK_US:

@@ -26,10 +26,10 @@ from driveblocks.desk.run.session import Result, Session
 from driveblocks.desk.run.simulated import Simulation
 from driveblocks.desk.run.watchdog import FIRST_US, LIMIT_US, Watchdog
 from driveblocks.desk.screen import Desk, Heading, Lines, LiveTable, Screen
-from driveblocks.desk.words import LOOPBACK, Refused, time
+from driveblocks.desk.words import LOOPBACK, opening, time
 from driveblocks.maps import catalog
 from driveblocks.maps.collection import Source as Map
-from driveblocks.maps.problem import MapError
+from driveblocks.maps.problem import Refused
 from driveblocks.simulator.drive import SimulatedDrive
 from structured_text import files
 from structured_text.visible import file_name
@@ -69,7 +69,8 @@ class Setup:
         if console.terminal().is_terminal:
             console.write(f"{self.label}  compiling {file_name(self._path.name)}")
         self._maps = _maps(options)
-        self._loaded = self._load()
+        name = file_name(catalog.shown(self._path))
+        self._loaded = probe.compiled(name, files.text(self._path), self._maps, options.name)
         self.probe = probe.probed(self._loaded, self._scan_us, max(FIRST_US, self._watchdog_us))
         """The program after one scan, without a port: what `permission` asks a person about."""
         self._drives = [] if options.tcp or options.port else self._simulates()
@@ -85,12 +86,6 @@ class Setup:
             return RECKONED_WATCHDOG_US if self._options.fast else LIMIT_US
         return time("--watchdog", self._options.watchdog, SHORTEST_WATCHDOG_US, LONGEST_WATCHDOG_US)
 
-    # ------------------------------------------------------------ program
-
-    def _load(self) -> source.Loaded:
-        name = file_name(catalog.shown(self._path))
-        return probe.compiled(name, files.text(self._path), self._maps, self._options.name)
-
     def _line(self, pin: str) -> int:
         return self.probe.number(f"{self.probe.wiring.line}.{pin}") or USUAL.get(pin, 0)
 
@@ -99,17 +94,13 @@ class Setup:
     def _port(self) -> Port:
         """Open the port. Raises Refused."""
         options = self._options
-        try:
+        with opening(options.port or options.tcp or "simulated drives"):
             if options.port is not None:
                 return port.serial_port(options.port, self._line("BitRate"), self._form(), self._clock)
             if options.tcp is not None:
                 host, _, number = options.tcp.rpartition(":")
                 return port.tcp(host or LOOPBACK[1], int(number), self._clock)
             return self._simulated()
-        except ImportError as error:
-            raise Refused(f"--port needs pyserial, which does not run here: {error}") from None
-        except (OSError, ValueError, OverflowError) as error:
-            raise Refused(f"{options.port or options.tcp or 'simulated drives'}: {port.reason(error)}") from None
 
     def _form(self) -> str:
         """Data bits, parity and stop bits. Raises Refused."""
@@ -130,14 +121,11 @@ class Setup:
         if not self._options.simulate:
             return list(of_program(self.probe, tuple(known.values())))
         paths = [path for path, _ in known.values()]
-        try:
-            return named(
-                words(self._options.simulate),
-                lambda name: known[catalog.displacing(catalog.resolve(name), paths).resolve()],
-                "--simulate ",
-            )
-        except catalog.UnknownDrive as error:
-            raise Refused(str(error)) from None
+        return named(
+            words(self._options.simulate),
+            lambda name: known[catalog.displacing(catalog.resolve(name), paths).resolve()],
+            "--simulate ",
+        )
 
     def _simulated(self) -> Port:
         rate, bits, ascii_mode = self._line("BitRate"), self._line("CharacterBits"), bool(self._line("Ascii"))
@@ -147,9 +135,9 @@ class Setup:
             drives = [one.made(ascii_mode=ascii_mode) for one in self._drives]
             if self._options.demo:
                 self._show(drives)
-            bus, clock = Bus(drives, rate, bits, ascii_mode=ascii_mode), _Since(self._clock)
-            self._acts(lambda happening: bus.happen(happening.act, clock.now_us()))
-            return WirePort(bus, clock)
+            bus, begun = Bus(drives, rate, bits, ascii_mode=ascii_mode), self._clock.now_us()
+            self._acts(lambda happening: bus.happen(happening.act, self._clock.now_us() - begun))
+            return WirePort(bus, self._clock)
         process = Simulation(self._drives, rate, bits, ascii_mode=ascii_mode)
         self._stack.callback(process.close)
         self._acts(process.happen)
@@ -160,10 +148,7 @@ class Setup:
         path, drives = self._options.scenario, {one.unit: one.drive for one in self._drives}
         if self._options.tcp or self._options.port or self._options.demo:
             return None
-        try:
-            return Play(drives, scenario.read(path, drives) if path else ())
-        except MapError as error:
-            raise Refused(str(error)) from None
+        return Play(drives, scenario.read(path, drives) if path else ())
 
     def _acts(self, act: Callable[[scenario.Happening], None]) -> None:
         if self._session.play is not None:
@@ -219,13 +204,7 @@ class Setup:
 
     def _script(self, controller: Controller) -> list[script.Setting]:
         path = self._options.script
-        if path is None:
-            return []
-        name = file_name(path)
-        try:
-            return script.read(name, files.text(path), controller.instance)
-        except (script.ScriptError, files.BadFile) as error:
-            raise Refused(str(error)) from None
+        return [] if path is None else script.read(file_name(path), files.text(path), controller.instance)
 
     # ------------------------------------------------------------ the run
 
@@ -344,18 +323,4 @@ def _stands(result: Result) -> Iterator[str]:
 def _maps(options: Options) -> list[Map]:
     """The shipped maps, and those that are named. Raises Refused."""
     named = [*options.maps, *(one.name for one in words(options.simulate) if catalog.is_path(one.name))]
-    try:
-        return source.known([catalog.resolve(name) for name in named])
-    except (catalog.UnknownDrive, MapError) as error:
-        raise Refused(str(error)) from None
-
-
-class _Since:
-    """A clock whose beginning is now."""
-
-    def __init__(self, clock: Clock) -> None:
-        self._clock, self._begun = clock, clock.now_us()
-        self.sleep_until: Callable[[int], None] = clock.sleep_until
-
-    def now_us(self) -> int:
-        return self._clock.now_us() - self._begun
+    return source.known([catalog.resolve(name) for name in named])

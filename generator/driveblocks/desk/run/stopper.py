@@ -28,6 +28,7 @@ SAY_US = 5_000_000
 USUAL_RATE, USUAL_BITS = 19200, 11
 """Of a line that was not called yet."""
 SILENT = "no reply to the stop"
+LATE = "its replies come late: raise PortLateMs, or look at the gateway"
 
 
 @dataclass
@@ -103,6 +104,8 @@ class Stopper:
         one.rounds += 1
         reply = master.ask(stop_request(unit, one.drive), self._patience_us(master, one))
         if reply.kind != "good":
+            if one.why == SILENT and master.lates:
+                one.why = LATE
             one.why = "the stop was refused" if reply.kind == "refused" else one.why
             return False
         if master.hears_itself is False or reply.echo:
