@@ -90,22 +90,22 @@ def table(words: Mapping[int, int], **other: object) -> Named:
 
 
 def pi500() -> Named:
-    """Powtran PI500 (its manual, page 157; LinuxCNC's pi500_vfd): 1000H to 1016H and F001H, 3000H state, 8000H fault."""
+    """Powtran PI500 (manual, page 157; LinuxCNC's pi500_vfd): monitors at 1001H, state 3000H, fault 8000H, F000H."""
     monitors = {0x1001: 0, 0x1002: 5400, 0x1003: 0, 0x1004: 0, 0x1005: 0, 0x1006: 0, 0x1007: 0}
     groups = {0xF000 + (group << 8) + each: each for group in range(3) for each in range(20)}
     return table({0x1000: 0, **monitors, 0x3000: 3, 0x8000: 0, **groups}, most=12, functions=(3, 6))
 
 
 def acs355() -> Named:
-    """ABB ACS355, standard Modbus (manual pages 313, 319): 0 control word, 3 status word, parameter GGII at 100 G + I - 1."""
+    """ABB ACS355 (manual, pages 313, 319): control word 0, status word 3, parameter GGII at 100 G + I - 1."""
     process = {0: 0x0476, 1: 0, 2: 0, 3: 0x0231, 4: 0, 5: 0}
-    parameters = {100 * group + each: each for group in (1, 4, 10, 11, 20, 22, 53, 99) for each in range(12)}
+    parameters = {100 * group + each - 1: each for group in (1, 4, 10, 11, 20, 22, 53, 99) for each in range(1, 13)}
     return table({**process, **parameters}, most=120, functions=(1, 2, 3, 4, 5, 6, 8, 15, 16))
 
 
 def vfd_e() -> Named:
-    """Delta VFD-E (manual, Pr.09.04, address list): 2100H to 2109H read, 2000H to 2002H written only, Pr. GG-nn at GGnnH."""
-    monitors = {0x2100: 0, 0x2101: 0x0500, 0x2102: 5000, 0x2103: 0, 0x2104: 0, 0x2105: 3110, 0x2106: 0, 0x2107: 0}
+    """Delta VFD-E (manual, address list of Pr.09.04): 2100H to 2109H, Pr. GG-nn at GGnnH; 2000H is written only."""
+    monitors = dict.fromkeys(range(0x2100, 0x210A), 0) | {0x2101: 0x0500, 0x2102: 5000, 0x2108: 3110}
     parameters = {(group << 8) + each: each for group in (0, 1, 2, 9) for each in range(10)}
     return table({**monitors, **parameters}, most=1, functions=(3, 6))
 

@@ -28,12 +28,10 @@ def units(stem: str, line: str, seed: int) -> tuple[list[Named], Fate]:
     some = frozenset(chance.sample(addresses, 2))
     form = None if style.address is None or style.function is None else (style.function, style.address)
     reply_us = chance.choice((2_000, 5_000, 12_000, 38_000)) if seed else 5_000
-    none = frozenset[int]()
-    one = Named(reply_us=reply_us, refusal=form, refuses=some if seed % 3 == 1 else none)
-    if seed % 6 == 5:
-        one.silent = some
+    one = Named(reply_us=reply_us, refusal=form)
     if line in TWINS:
         return [one, Named(reply_us=reply_us + TWINS[line], refusal=form, mark=0x8000)], Fate()
+    one.refuses, one.silent = (some if seed % 3 == 1 else one.refuses), (some if seed % 6 == 5 else one.silent)
     return [one], FATES[line]
 
 
