@@ -264,7 +264,7 @@ class Exchanges:
         given = self._open
         if given is None:
             return None
-        soon = frame.begin_us - given.end_us < ECHO_US or (self._own and given.asked.function not in ECHOED)
+        soon = frame.begin_us - given.end_us < ECHO_US or (self._own and self._hears_itself(asking.body))
         if given.body == asking.body and soon:
             return self._echoed(frame, asking, given)
         late = next((one for one in self._given if one.body == asking.body), None)

@@ -55,7 +55,7 @@ def judge(ask: Ask, drive: Drive, unit: int, others: Mapping[str, Drive]) -> Jud
     read, found = identity_read(drive), Judgement()
     if read is not None and drive.identity is not None:
         return _identified(ask, drive, unit, drive.identity, read)
-    every = [(each, ask(drive, _request(unit, drive, each))) for each in polls(drive)]
+    every = [(each, _surely(ask, drive, _request(unit, drive, each))) for each in polls(drive)]
     for each, reply in every:
         if not reply.words and (each.fast or not any(one.words for _, one in every)):
             return found.against(f"unit {unit} does not give {_what(each)}, which {drive.prefix} has", reply)
@@ -146,6 +146,12 @@ def _as_rival(ask: Ask, drive: Drive, unit: int, other: Drive) -> Read:
             return []
         found.append((each, reply))
     return found
+
+
+def _surely(ask: Ask, drive: Drive, request: bytes) -> Reply:
+    """A reply; silence twice, since a line may lose the request."""
+    reply = ask(drive, request)
+    return reply if reply.answered else ask(drive, request)
 
 
 def _rival(

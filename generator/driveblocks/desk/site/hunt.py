@@ -20,6 +20,8 @@ BOUND_US = 600_000_000
 SOON_US, LATE_US = 200_000, 1_200_000
 """How long a reply is waited for: in the search, and where a unit is known."""
 TRIES = 3
+NAMED = 4
+"""How often all is tried where a person has named the only way."""
 LIKELY = 4
 WORST: tuple[Trouble, ...] = ("silent", "echo", "damaged", "half")
 """What a search without a drive has heard, from the least to what says most."""
@@ -134,7 +136,7 @@ def find(talk: Talk, every: list[Way], addresses: list[int], asker: Asker, found
     order = [(way, addresses[:LIKELY], SOON_US) for way in every]
     order += [(way, addresses[:1], LATE_US) for way in every]
     order += [(way, addresses[LIKELY:], SOON_US) for way in every]
-    order = [(way, some, patience) for way, some, patience in order if some]
+    order = [(way, some, patience) for way, some, patience in order if some] * (NAMED if len(every) == 1 else 1)
     begun, done, total = talk.line.now_us(), 0, sum(len(each) for _, each, _ in order)
     before = talk.way
     for way, some, patience in order:

@@ -5,7 +5,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 
 from driveblocks.desk.clock import Clock
-from driveblocks.desk.exchange import LATE_US, Exchanges
+from driveblocks.desk.exchange import LATE_US, Exchanges, quality
 from driveblocks.desk.master import REPEAT_US, Master, Speech
 from driveblocks.desk.port import Port
 from driveblocks.desk.run.guard import Guard
@@ -23,6 +23,8 @@ PAUSE_US = 500_000
 LISTEN_US = 1_000_000
 BELIEVED_US = 300_000
 """After a word, as long as a repeater may take to send a reply once more."""
+HEARD = 10
+"""Exchanges that show whether anybody else answers."""
 STRAYS = "two units with one address, a repeater, another master, or a gateway that is slower than 1.5 s"
 SILENT = "no reply"
 
@@ -113,14 +115,15 @@ class Reader:
 
     def _listen(self, left: list[Span]) -> None:
         """Whether a repeater or a second unit answers, too: it does so from the first reply on."""
-        for _ in range(2 if left else 0):
+        quiet = quality(self.master.said).exchanges >= HEARD and not self.master.strays
+        for _ in range(2 if left and not quiet else 0):
             if self._answer(self._good) == SILENT:
                 return
             self.master.rest(REPEAT_US)
             if self.master.strays == self._strays:
                 return
             self._strays = self.master.strays
-        if left:
+        if left and not quiet:
             raise StraysError(f"two replies come to each request to unit {self._unit}: {STRAYS}")
 
     def _read(
