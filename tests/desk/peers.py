@@ -137,6 +137,19 @@ class Fate:
     """What is sent comes back so long after each of its characters, and replies come as much later."""
 
 
+class Strides(VirtualClock):
+    """Time that passes in longer steps while nothing comes: a machine that is busy."""
+
+    def __init__(self, line: "Line") -> None:
+        """Of a line."""
+        super().__init__()
+        self.line = line
+
+    def sleep_until(self, us: int) -> None:
+        """It is that time, or up to 4 ms later."""
+        super().sleep_until(max(us, min(us + 4_000, self.line.due_us)))
+
+
 class Line:
     """A port with units on it."""
 
@@ -144,7 +157,7 @@ class Line:
 
     def __init__(self, peers: Iterable[Peer], fate: Fate = Fate(), seed: int = 0) -> None:
         """At 9,600 bit/s 8N1."""
-        self.clock, self.peers, self.fate, self.chance = VirtualClock(), [*peers], fate, Random(seed)
+        self.clock, self.peers, self.fate, self.chance = Strides(self), [*peers], fate, Random(seed)
         self.way = self.tuned = Way(9600)
         self.asked = self.hurt = self.replies = 0
         """Requests, those of which request or reply was damaged, and replies."""
@@ -213,6 +226,11 @@ class Line:
         """Nothing to give back."""
 
     @property
+    def due_us(self) -> int:
+        """When the next character will have ended."""
+        return int(self._come[0][0]) + 1 if self._come else 1 << 62
+
+    @property
     def share(self) -> float:
         """Requests that were damaged, or their replies."""
         return self.hurt / max(1, self.asked)
@@ -229,5 +247,17 @@ DAMAGED = {
 ECHOES = {f"echo {ms}": Fate(echo_us=1000 * ms) for ms in (0, 16, 40, 200)}
 FATES = LATE | ONCE | DOUBLED | DAMAGED | ECHOES
 """Lines by name."""
-TWINS_US = (10_000, 55_000, 120_000, 340_000)
-"""How much later the second of two units at one address replies."""
+TWINS = {f"twins {ms}": 1000 * ms for ms in (10, 55, 120, 340)}
+"""Lines with two units at one address: how much later the second replies."""
+
+
+@dataclass
+class Later:
+    """A unit that takes its time."""
+
+    peer: Peer
+    by_us: int
+
+    def receive(self, frame: bytes, now_us: int) -> list[tuple[int, bytes]]:
+        """As `Peer`."""
+        return [(at + self.by_us, reply) for at, reply in self.peer.receive(frame, now_us)]

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from random import Random
 
 import pytest
-from tests.desk.peers import CHAR_US, FATES, TWINS_US, Fate, Line, Named
+from tests.desk.peers import CHAR_US, FATES, TWINS, Fate, Line, Named
 from tests.desk.run.desk import maps
 
 from driveblocks.desk.master import Speech
@@ -15,7 +15,6 @@ from driveblocks.maps.form import is_bit
 from driveblocks.maps.plan import dialect
 
 MAPS = {each.path.stem: each.drive for each in maps()}
-TWINS = {f"twins {us // 1000}": us for us in TWINS_US}
 LINES = (*FATES, *TWINS)
 TIMES = 7
 """Seeds of each family on each line; 2,233 runs in all."""

@@ -9,17 +9,18 @@ import pytest
 from tests.desk.run.desk import EXAMPLE, ONE, Desk
 from tests.simulator.talk import MAPS
 
-from driveblocks.desk.clock import VirtualClock
+from driveblocks.desk.bus import Bus as Wire
 from driveblocks.desk.port import WirePort
 from driveblocks.desk.run.session import Result
 from driveblocks.desk.script import Setting
-from driveblocks.desk.wire import Wire
 from driveblocks.simulator.drive import SimulatedDrive
 
 SECOND = 1_000_000
 WITHIN_S = {ONE: 15, EXAMPLE.read_text("utf-8"): 60}
 """The longest StopWithinMs of a program."""
 BOUND_S = 62
+GIVEN_UP_US = 300 * SECOND
+"""When a person asks a second time: too late for any of these."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -52,10 +53,10 @@ class End:
 class Rough(Wire):
     """The port of a simulated line that does so."""
 
-    def __init__(self, drives: list[SimulatedDrive], clock: VirtualClock, end: End) -> None:
+    def __init__(self, drives: list[SimulatedDrive], desk: Desk, end: End) -> None:
         """Good before the end."""
         super().__init__(drives, 19200, 10, ascii_mode=False)
-        self.clock, self.end, self.chance = clock, end, Random(end.seed)
+        self.clock, self.ending, self.end, self.chance = desk.clock, desk.ending, end, Random(end.seed)
         self.late_ms = 2 * end.way_ms + 100 if end.way_ms else 0
         self._to, self._fro = deque[tuple[int, bytes]](), deque[tuple[int, bytes]]()
 
@@ -70,6 +71,8 @@ class Rough(Wire):
     def put(self, data: bytes) -> None:
         """Onto the line, or nowhere."""
         now, way = self.clock.now_us(), 1000 * self.end.way_ms
+        if now > self.end.at_us + GIVEN_UP_US:
+            self.ending.ask("no more", insists=True)
         if self.error:
             return
         if self.end.echo:
@@ -133,7 +136,7 @@ def run(end: End) -> tuple[Desk, Result, float]:
     for each in drives:
         each.powered = each in alive
     desk = Desk(EXAMPLE.read_text("utf-8") if three else ONE, drives)
-    desk.session.connect(Door(Rough(drives, desk.clock, end)), None)
+    desk.session.connect(Door(Rough(drives, desk, end)), None)
     desk.session.script = () if three else [Setting("Start", True, end.at_us * 2 // 5)]
 
     def step(at_us: int) -> None:
