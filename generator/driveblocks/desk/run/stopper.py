@@ -74,8 +74,9 @@ class Stopper:
             stopped = [
                 unit for unit in waiting if not self._hurried(stops[unit]) and self._stopped(master, unit, stops[unit])
             ]
-            for unit in stopped:
-                if not self.ending.hurry:
+            for unit in waiting:
+                known = unit in stopped or stops[unit].acknowledged_us is not None
+                if known and not self.ending.hurry:
                     self._confirm(master, unit, stops[unit])
             self._tell(stops, begun)
 
@@ -121,8 +122,8 @@ class Stopper:
         patterns = [of_condition(each) for each in one.drive.operation.standstill.all]
         words: dict[int, int] = {}
         for at, value in enumerate(sorted({whole(one.drive, each.register) for each in patterns})):
-            if at and not self._stopped(master, unit, one):
-                return
+            if at:
+                self._stopped(master, unit, one)
             request = read_request(unit, one.drive, Span(value[0], value[-1]))
             reply = master.ask(request, self._patience_us(master, one))
             if not reply.words:
@@ -144,7 +145,8 @@ class Stopper:
             said = (
                 f"{self.names.get(unit, 'unit')} (unit {unit}): {stops[unit].why}, for {(now - begun) // 1_000_000} s"
             )
-            self.say(f"{said}; look at its cable and supply, or stop it by hand; Ctrl-C gives up")
+            gives_up = "" if self.ending.alone else "; Ctrl-C gives up"
+            self.say(f"{said}; look at its cable and supply, or stop it by hand{gives_up}")
 
 
 def waited(stops: Mapping[int, Stop]) -> Collection[int]:
