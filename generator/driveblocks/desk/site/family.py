@@ -14,7 +14,7 @@ from driveblocks.maps.polls import Poll, identity_read, polls
 from driveblocks.simulator.pattern import of_condition
 from driveblocks.simulator.refusal import codes
 
-SETTINGS = 4
+SETTINGS = 5
 """Parameters that are tried."""
 UNLISTED = 12
 """Registers that no table lists: a unit that answers all of these answers everything."""
@@ -62,12 +62,15 @@ def judge(ask: Ask, drive: Drive, unit: int, others: Mapping[str, Drive]) -> Jud
         if strange := next(_strange(drive, each, reply), ""):
             return found.against(f"what unit {unit} gives is no {drive.prefix}: {strange}", reply)
         found.note(f"{'gives' if reply.words else 'does not give'} {_what(each)}", reply)
-    if none := _settings(ask, drive, unit):
-        return found.against(f"unit {unit} gives none of the parameters that {drive.prefix} has", none)
+    settings = _settings(ask, drive, unit)
+    lacking = [each for each in settings if not each.words]
+    if settings and len(lacking) == len(settings):
+        return found.against(f"unit {unit} gives none of the parameters that {drive.prefix} has", lacking[-1])
     found.refused = ", ".join(_what(each) for each, reply in every if not reply.words)
     if not found.refused and not _refuses_some(ask, drive, unit):
         found.family = "unknown"
-    if why := _rival(ask, (drive, unit), others, found, weak=bool(found.refused) or not _listed(drive, every)):
+    weak = bool(found.refused) or 2 * len(lacking) > len(settings) or not _listed(drive, every)
+    if why := _rival(ask, (drive, unit), others, found, weak=weak):
         return found.against(*why)
     return _named(ask, drive, unit, others, found)
 
@@ -88,15 +91,11 @@ def stranger(master: Master, drive: Drive, unit: int, others: Mapping[str, Drive
     return "" if gone else judged.why
 
 
-def _settings(ask: Ask, drive: Drive, unit: int) -> Reply | None:
-    """The last reply, where none of some parameters that the map lists is given."""
-    listed = [each.address for each in rows(drive) if each.set and each.register is not None]
-    reply = None
-    for address in listed[:: max(1, len(listed) // SETTINGS)][:SETTINGS]:
-        reply = ask(drive, _request(unit, drive, Poll(3, address, 1, fast=False)))
-        if reply.words:
-            return None
-    return reply
+def _settings(ask: Ask, drive: Drive, unit: int) -> list[Reply]:
+    """The replies to some parameters that the map lists, the first and the last among them."""
+    listed = [each.address for each in rows(drive) if each.set]
+    every = [listed[(len(listed) - 1) * at // (SETTINGS - 1)] for at in range(SETTINGS)] if listed else []
+    return [ask(drive, _request(unit, drive, Poll(3, each, 1, fast=False))) for each in dict.fromkeys(every)]
 
 
 def _what(poll: Poll) -> str:
