@@ -91,8 +91,8 @@ SAYS_RUNNING: dict[str, Callable[[Any, int], bool]] = alike(
         "SN300G5": lambda one, now: bool(one.LIVE[0x0010](one, now) & 1),  # 0010H: bit 0
     }
 )
-SILENT = {13: "no reply yet", 14: "the drive has stopped answering"}
-"""Reasons that speak of silence, by the table of the drive block's page."""
+SILENT = {13: "no reply yet", 14: "the drive has stopped answering", 52: "replies come too late"}
+"""Reasons that speak of no reply in time, by the table of the drive block's page."""
 RAM_ONLY = alike({"ATV312": 0, "CHF": 0x8000, "GD200A": 0x8000, "JSCC": 0, "MX2": 0, "PF4": 0, "SN300G5": 0})
 """The bit of an address that leaves EEPROM alone."""
 OFFLINE, NOT_SENT, READ, WRITE = 51, 68, "Reader", "Writer"

@@ -632,7 +632,8 @@ def _hiccup() -> Iterator[Step]:
 def _late() -> Iterator[Step]:
     late: Shows = {"Fate.HoldMs": 100, "Pins.Settings.LongestMs": 250}
     yield Step("later than TurnRoundMs", late, ms=1500, shows={"Bus.LateReplies >= 1": True})
-    yield Step("in time again", {"Fate.HoldMs": 0}, ms=1000, shows={"Seen.Starts": 1, "CommOk": True})
+    yield Step("for too long", {}, why("LATE_REPLIES"), 3000, {"CommOk": False})
+    yield Step("in time again", {"Fate.HoldMs": 0}, "Motor.CommOk", 4000, {"Seen.Starts": 1})
     yield Step("it still obeys", {"RunForward": False}, "Motor.StopConfirmed", 4000, STANDS)
 
 
