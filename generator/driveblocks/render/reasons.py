@@ -221,8 +221,8 @@ REASONS = (
         "LATE_REPLIES",
         "replies come too late: raise PortLateMs, or look at the gateway",
         "应答过迟：增大PortLateMs或检查网关",
-        "`Diagnosis.LongestReplyMs` is how long they took; `PortLateMs` has to cover what port, adapter and gateway add "
-        "in both directions together, `Settings.TurnRoundMs`, where it is set, the drive's own time",
+        "`Diagnosis.LongestReplyMs` is how long they took; `PortLateMs` has to cover what port, adapter and gateway "
+        "add in both directions together, `Settings.TurnRoundMs`, where it is set, the drive's own time",
     ),
 )
 _BY_NAME = {reason.name: reason for reason in REASONS}
