@@ -110,6 +110,12 @@ def vfd_e() -> Named:
     return table({**monitors, **parameters}, most=1, functions=(3, 6))
 
 
+def pf525() -> Named:
+    """PowerFlex 525 (520-UM001, appendix C) with all its parameters: a register is a parameter's number."""
+    monitors = {0x2000: 1, 0x2001: 0, 0x2100: 0x060D, 0x2101: 0, 0x2103: 0, 0x2104: 0, 0x2105: 540, 0x2106: 0}
+    return table({**dict.fromkeys(range(1, 731), 0), **monitors}, functions=(3, 6, 16))
+
+
 def everything() -> Named:
     """A gateway that answers every address with 0."""
     return Named(given=dict.fromkeys(range(0x10000), 0))
@@ -117,6 +123,7 @@ def everything() -> Named:
 
 STRANGERS = {"pi500": pi500, "acs355": acs355, "vfd_e": vfd_e}
 """Drives that no map is made for."""
+TABLES = STRANGERS | {"pf525 whole": pf525}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -237,7 +244,7 @@ class Line:
 
 
 LATE = {f"late {ms}": Fate(late_us=1000 * ms) for ms in (0, 35, 85, 245, 895)}
-ONCE = {f"once {ms}": Fate(late_us=35_000, once_us=1000 * ms - 40_000) for ms in (340, 1200)}
+ONCE = {f"once {ms}": Fate(late_us=55_000, once_us=1000 * ms - 60_000) for ms in (340, 1200)}
 DOUBLED = {f"doubled {ms}": Fate(double_us=1000 * ms) for ms in (5, 15, 30, 55, 90, 120)}
 DAMAGED = {
     f"{'cut' if cut else 'flipped'} {share}": Fate(damage=share / 100, cut=cut)
