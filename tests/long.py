@@ -79,6 +79,11 @@ RUNS = {
     "planted": Run(
         "mistakes planted in blocks, linter, exports and commands: which test turns red", "hours", ("tests.planted",)
     ),
+    "desk": Run(
+        "words, verdicts and ends on lines that delay, double and damage: 2,200 saves, 1,200 hours, 300 ends",
+        "half an hour",
+        ("pytest -n auto -m long tests/desk",),
+    ),
     "linux-line": Run(
         "a soft PLC by matiec against the simulator, 1 % of the frames damaged (SECONDS)",
         "an hour",

@@ -1,7 +1,6 @@
 """How a run ends on a bad line: every motor whose line comes back stands before, and nothing hangs beyond it."""
 
 from collections import deque
-from collections.abc import Iterator
 from dataclasses import dataclass
 from random import Random
 
@@ -9,7 +8,7 @@ import pytest
 from tests.desk.run.desk import EXAMPLE, ONE, Desk
 from tests.simulator.talk import MAPS
 
-from driveblocks.desk.bus import Bus as Wire
+from driveblocks.desk.bus import Bus
 from driveblocks.desk.port import WirePort
 from driveblocks.desk.run.session import Result
 from driveblocks.desk.script import Setting
@@ -50,13 +49,13 @@ class End:
         return (20 if self.way_ms else 5) * SECOND
 
 
-class Rough(Wire):
+class Rough(Bus):
     """The port of a simulated line that does so."""
 
     def __init__(self, drives: list[SimulatedDrive], desk: Desk, end: End) -> None:
         """Good before the end."""
         super().__init__(drives, 19200, 10, ascii_mode=False)
-        self.clock, self.ending, self.end, self.chance = desk.clock, desk.ending, end, Random(end.seed)
+        self.clock, self.ending, self.end, self.loss.chance = desk.clock, desk.ending, end, Random(end.seed)
         self.late_ms = 2 * end.way_ms + 100 if end.way_ms else 0
         self._to, self._fro = deque[tuple[int, bytes]](), deque[tuple[int, bytes]]()
 
@@ -77,7 +76,8 @@ class Rough(Wire):
             return
         if self.end.echo:
             self._fro.append((now + 2 * way, data))
-        self._to.append((now + way, self._noisy(data)))
+        self.loss.damage = self.end.noise if now >= self.end.at_us else 0
+        self._to.append((now + way, data))
         self._move(now)
 
     def take(self) -> bytes:
@@ -96,14 +96,6 @@ class Rough(Wire):
         said = self.receive(now)
         if said and not self._out(now):
             self._fro.append((now + 1000 * self.end.way_ms, said))
-
-    def replies(self, body: bytes) -> Iterator[tuple[int, bytes]]:
-        """As they come."""
-        yield from ((at, self._noisy(frame)) for at, frame in super().replies(body))
-
-    def _noisy(self, data: bytes) -> bytes:
-        hurts = self.clock.now_us() >= self.end.at_us and self.chance.random() < self.end.noise
-        return bytes([data[0] ^ 0x20]) + data[1:] if hurts else data
 
 
 class Door(WirePort):
@@ -176,13 +168,16 @@ def judged(end: End) -> None:
 
 
 ENDS = (
-    End(), End(how="SIGTERM", alone=True, out_s=8), End(out_s=100), End(how="crash", alone=True, noise=0.6),
-    End(how="time", alone=True, way_ms=250), End(how="SIGTERM", alone=True, out_s=120, echo=True),
-    End(how="SIGHUP", alone=True, dead=1),
+    End(), End(how="SIGTERM", alone=True, out_s=8), End(how="crash", alone=True, noise=0.6),
+    End(how="time", alone=True, way_ms=250), End(how="SIGHUP", alone=True, dead=1),
+    *(
+        pytest.param(each, marks=pytest.mark.thorough)
+        for each in (End(out_s=100), End(how="SIGTERM", alone=True, out_s=120, echo=True))
+    ),
 )  # fmt: skip
 
 
-@pytest.mark.parametrize("end", ENDS, ids=str)
+@pytest.mark.parametrize("end", ENDS)
 def test_every_motor_whose_line_comes_back_stands_before_the_run_ends(end: End) -> None:
     judged(end)
 
