@@ -42,6 +42,8 @@ class Stop:
     """It has answered before, or was told to run."""
     why: str = SILENT
     """What is not proved; empty at standstill."""
+    heard: bool = False
+    """A reply to a stop came, or our own echo."""
     acknowledged_us: int | None = None
     rounds: int = 0
 
@@ -70,21 +72,19 @@ class Stopper:
         master.hurries = lambda: self.ending.hurry
         master.take_over(last)
         self._said_us = begun
-        while waiting := [unit for unit, one in stops.items() if one.why and self._goes_on(one, begun)]:
-            stopped = [
-                unit for unit in waiting if not self._hurried(stops[unit]) and self._stopped(master, unit, stops[unit])
-            ]
+        while waiting := [unit for unit, one in stops.items() if self._goes_on(one, begun)]:
             for unit in waiting:
-                known = unit in stopped or stops[unit].acknowledged_us is not None
-                if known and not self.ending.hurry:
+                if self._goes_on(stops[unit], begun):
+                    self._stopped(master, unit, stops[unit])
+            for unit in waiting:
+                if self._goes_on(stops[unit], begun) and stops[unit].heard:
                     self._confirm(master, unit, stops[unit])
             self._tell(stops, begun)
 
-    def _hurried(self, one: Stop) -> bool:
-        return self.ending.hurry and one.rounds > 0
-
     def _goes_on(self, one: Stop, begun: int) -> bool:
-        """Whether one that is not at standstill is still waited for."""
+        """Whether one is not at standstill and still waited for."""
+        if not one.why:
+            return False
         if self.ending.hurry:
             return one.rounds == 0
         if not one.waited_for and one.acknowledged_us is None:
@@ -99,19 +99,19 @@ class Stopper:
         long = master.lates or one.rounds % PATIENT == 0
         return (LATE_US if long else REPLY_US) + 1000 * self.gate.late_ms
 
-    def _stopped(self, master: Master, unit: int, one: Stop) -> bool:
-        """Send a stop; whether the drive has acknowledged it, as far as the bytes say."""
+    def _stopped(self, master: Master, unit: int, one: Stop) -> None:
+        """Send a stop. What came is an acknowledgement where the line does not give back what is sent."""
         master.said.anyone = one.drive
         one.rounds += 1
         reply = master.ask(stop_request(unit, one.drive), self._patience_us(master, one))
-        if reply.kind != "good":
-            if one.why == SILENT and master.lates:
-                one.why = LATE
-            one.why = "the stop was refused" if reply.kind == "refused" else one.why
-            return False
-        if master.hears_itself is False or reply.echo:
-            self._acknowledged(one)
-        return True
+        if reply.kind == "good":
+            one.heard = True
+            if master.hears_itself is False or reply.echo:
+                self._acknowledged(one)
+        elif reply.kind == "refused":
+            one.why = "the stop was refused"
+        elif one.why == SILENT and master.lates:
+            one.why = LATE
 
     def _acknowledged(self, one: Stop) -> None:
         if one.acknowledged_us is None:
