@@ -99,11 +99,13 @@ def test_each_request_accounts_for_one_late_reply() -> None:
 def test_two_lines_cannot_have_the_same_slots(slots: str, error: int) -> None:
     """A copy of the line for a second port: its drive 1 got what was meant for the other one, and ran."""
     sources = [*line_sources(), Source("two.st", TWO_LINES.format(slots=slots))]
-    program = EmbeddedEngine().build(sources).instance("TwoLines")
-    for each in ("Slots", "Others"):
-        for slot in (1, 4):
-            program[f"{each}[{slot}].UnitAddress"] = slot
-    for _ in range(30):
-        program.scan()
-    assert [program[name] for name in ("One.ErrorID", "Two.ErrorID")] == [error, error]
-    assert program["Slots[4].LineErrorID"] == error
+    library = EmbeddedEngine().build(sources)
+    for used in ((1, 4), (1,)):
+        program = library.instance("TwoLines")
+        for each in ("Slots", "Others"):
+            for slot in used:
+                program[f"{each}[{slot}].UnitAddress"] = slot
+        for _ in range(30):
+            program.scan()
+        assert [program[name] for name in ("One.ErrorID", "Two.ErrorID")] == [error, error]
+        assert program[f"Slots[{used[-1]}].LineErrorID"] == error
