@@ -4,7 +4,10 @@ Nothing of it is computed by the product: frames are those of `tests.second.fram
 tables come from makers' documents, not from maps.
 """
 
-from collections.abc import Iterable, Mapping
+import socket
+import threading
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
 from heapq import heappop, heappush
 from random import Random
@@ -12,7 +15,7 @@ from typing import Protocol
 
 from tests.second.frames import opened, rtu
 
-from driveblocks.desk.clock import VirtualClock
+from driveblocks.desk.clock import Clock, RealClock, VirtualClock
 from driveblocks.desk.site.found import Way
 
 CHAR_US = 1042
@@ -140,6 +143,8 @@ class Fate:
     """Share of frames that is damaged, in each direction."""
     cut: bool = False
     """Damage takes an end off, else it turns a bit."""
+    split_us: int = 0
+    """How much later the second half of a reply comes: a network hands it over in pieces."""
     echo_us: int | None = None
     """What is sent comes back so long after each of its characters, and replies come as much later."""
 
@@ -164,7 +169,8 @@ class Line:
 
     def __init__(self, peers: Iterable[Peer], fate: Fate = Fate(), seed: int = 0) -> None:
         """At 9,600 bit/s 8N1."""
-        self.clock, self.peers, self.fate, self.chance = Strides(self), [*peers], fate, Random(seed)
+        self.clock: Clock = Strides(self)
+        self.peers, self.fate, self.chance = [*peers], fate, Random(seed)
         self.way = self.tuned = Way(9600)
         self.asked = self.hurt = self.replies = 0
         """Requests, those of which request or reply was damaged, and replies."""
@@ -184,7 +190,7 @@ class Line:
     def send(self, data: bytes) -> None:
         """A request."""
         now, fate = self.clock.now_us(), self.fate
-        if self.gone_us is not None and now >= self.gone_us:
+        if not data or (self.gone_us is not None and now >= self.gone_us):
             return
         end, self.asked = now + len(data) * CHAR_US, self.asked + 1
         self.bodies.add(data[1])
@@ -202,7 +208,9 @@ class Line:
         fate, said = self.fate, self._spoilt(reply)
         self.replies += 1
         begin = at + fate.late_us + (fate.echo_us or 0) + (fate.once_us if self.replies == fate.at else 0)
-        self._put(begin, said)
+        half = len(said) // 2 if fate.split_us else len(said)
+        self._put(begin, said[:half])
+        self._put(begin + half * CHAR_US + fate.split_us, said[half:])
         if fate.double_us is not None:
             self._put(begin + len(reply) * CHAR_US + fate.double_us, self._spoilt(reply))
         return said != reply
@@ -238,9 +246,39 @@ class Line:
         return int(self._come[0][0]) + 1 if self._come else 1 << 62
 
     @property
+    def is_whole(self) -> bool:
+        """Whether all that is under way has ended."""
+        return max(self._come, default=(0, 0))[0] <= self.clock.now_us()
+
+    @property
     def share(self) -> float:
         """Requests that were damaged, or their replies."""
         return self.hurt / max(1, self.asked)
+
+
+@contextmanager
+def served(peers: Iterable[Peer], fate: Fate, seed: int) -> Iterator[str]:
+    """Such a line in real time, where one program may come at a time; its TCP address."""
+    line, over, door = Line(peers, fate, seed), threading.Event(), socket.create_server(("127.0.0.1", 0))
+    line.clock = RealClock()
+
+    def serve() -> None:
+        come, _ = door.accept()
+        come.settimeout(0.001)
+        while not over.is_set():
+            with suppress(TimeoutError, OSError):
+                line.send(come.recv(4096))
+            if line.is_whole:
+                with suppress(OSError):
+                    come.sendall(line.receive())
+        come.close()
+
+    threading.Thread(target=serve, daemon=True).start()
+    try:
+        yield f"127.0.0.1:{door.getsockname()[1]}"
+    finally:
+        over.set()
+        door.close()
 
 
 LATE = {f"late {ms}": Fate(late_us=1000 * ms) for ms in (0, 35, 85, 245, 895)}
@@ -252,7 +290,8 @@ DAMAGED = {
     for cut in (False, True)
 }
 ECHOES = {f"echo {ms}": Fate(echo_us=1000 * ms) for ms in (0, 16, 40, 200)}
-FATES = LATE | ONCE | DOUBLED | DAMAGED | ECHOES
+SPLIT = {f"split {ms}": Fate(split_us=1000 * ms) for ms in (10, 40, 100)}
+FATES = LATE | ONCE | DOUBLED | DAMAGED | ECHOES | SPLIT
 """Lines by name."""
 TWINS = {f"twins {ms}": 1000 * ms for ms in (10, 55, 120, 340)}
 """Lines with two units at one address: how much later the second replies."""

@@ -1,16 +1,19 @@
 """What is said of a drive over lines that delay, double, damage and mix up: no word and no verdict is another's."""
 
 from collections.abc import Iterator
+from pathlib import Path
 from random import Random
 
 import pytest
-from tests.desk.peers import CHAR_US, FATES, TWINS, Fate, Line, Named
+from click.testing import CliRunner
+from tests.desk.peers import CHAR_US, FATES, TWINS, Fate, Line, Named, served
 from tests.desk.run.desk import maps
 
+from driveblocks.cli import app
 from driveblocks.desk.master import Speech
 from driveblocks.desk.site.reader import LostError, One, Reader
 from driveblocks.desk.site.register import rows
-from driveblocks.desk.site.saved import Word
+from driveblocks.desk.site.saved import Word, read
 from driveblocks.maps.form import is_bit
 from driveblocks.maps.plan import dialect
 
@@ -74,3 +77,26 @@ def test_no_word_is_ever_kept_under_a_wrong_name(stem: str, line: str) -> None:
     for seed in range(1, TIMES + 1):
         _, peer, found, ended = saved(stem, line, seed)
         assert (seed, list(wrong(stem, peer, found, ended))) == (seed, [])
+
+
+def at_once(line: str, seed: int, path: Path) -> tuple[int, dict[int, Word], str]:
+    """`parameters save` of a JSCC in real time: its exit status, the words of the file, what it said."""
+    peers, fate = units("jscc", line, seed)
+    for each in peers:
+        each.given = {0x2000: 0, 0x2001: 4, 0x3000: 0}  # a status that its manual lists
+        each.only = frozenset(each.address for each in rows(MAPS["jscc"]))
+    with served(peers, fate, seed) as place:
+        got = CliRunner().invoke(app, ["parameters", "save", "jscc", str(path), "--tcp", place, "--patience", "5s"])
+    found = read(path).words if path.exists() else {}
+    bad = list(wrong("jscc", peers[0], found, "partly"))
+    assert not bad, (line, seed, got.exit_code, bad[:3], got.output[-500:])
+    return got.exit_code, found, got.output
+
+
+@pytest.mark.thorough
+@pytest.mark.parametrize("line", ["late 35", "once 340", "flipped 5", "doubled 55", "twins 55"])
+def test_the_command_keeps_no_word_under_a_wrong_name(line: str, tmp_path: Path) -> None:
+    status, found, said = at_once(line, 0, tmp_path / "words.csv")
+    whole = line.startswith(("late", "once", "flipped"))
+    assert (status == 0, len(found) == len(rows(MAPS["jscc"]))) == (whole, whole), said
+    assert ("the line: " in said) or ("two units with one address" in said)
