@@ -4,14 +4,28 @@ import gc
 import importlib
 import pkgutil
 import sys
+from typing import Any
 
 import click
 
 from driveblocks import __version__, commands, console
+from driveblocks.maps.problem import Refused
+from structured_text.files import BadFile
+
+
+class _Commands(click.Group):
+    def invoke(self, ctx: click.Context) -> Any:
+        """Run a command; whichever refuses its input, what is wrong is said, and the status is 2."""
+        try:
+            return super().invoke(ctx)
+        except (Refused, BadFile) as error:
+            commands.refuse(str(error))
 
 
 # `color` keeps click from taking escape codes out of what does not go to a terminal: the streams write them out.
-@click.group(context_settings={"help_option_names": ["-h", "--help"], "show_default": True, "color": True})
+@click.group(
+    cls=_Commands, context_settings={"help_option_names": ["-h", "--help"], "show_default": True, "color": True}
+)
 @click.version_option(__version__, message="driveblocks %(version)s", help="Print the version and exit.")
 def app() -> None:
     """Structured Text function blocks for variable-frequency drives, from one YAML map per family."""

@@ -9,6 +9,7 @@ from click.testing import CliRunner, Result
 
 from driveblocks.cli import app
 from driveblocks.maps import collection
+from driveblocks.maps.problem import Refused
 from driveblocks.output import build, manifest
 from driveblocks.render.text import Language
 
@@ -111,7 +112,7 @@ def test_what_is_no_folder_or_no_file_is_in_the_way(barrier: str) -> None:
 def test_a_long_list_is_cut_short() -> None:
     names = [f"page{number}" for number in range(build.SHOWN + 1)]
     plan = build.Plan([], manifest.Manifest(), {}, dict.fromkeys(names, manifest.State.FOREIGN))
-    with pytest.raises(manifest.Refused, match="\nand 1 more\n"):
+    with pytest.raises(Refused, match="\nand 1 more\n"):
         build.write(Path("out"), plan)
 
 

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner, Result
 
-from driveblocks.commands import lint
+from driveblocks.cli import app
 from structured_text.language.rules import RULES
 
 CLEAN = "FUNCTION_BLOCK Example\nVAR\n  Count : INT;\nEND_VAR\n  Count := Count + 1;\nEND_FUNCTION_BLOCK\n"
@@ -15,7 +15,7 @@ LOOP = CLEAN.replace("  Count := Count + 1;", "  FOR Count := 1 TO 3 DO\n    Cou
 
 def run(*words: str | Path) -> Result:
     """Run the command."""
-    return CliRunner().invoke(lint.run, [str(each) for each in words])
+    return CliRunner().invoke(app, ["lint", *map(str, words)])
 
 
 @pytest.fixture

@@ -14,7 +14,7 @@ from tests.desk.run.windows import environment
 from tests.desk.simulate.test_peer import serving
 from tests.simulator.talk import MAPS
 
-from driveblocks.commands import run as command
+from driveblocks.cli import app
 from driveblocks.desk.bus import Bus
 from driveblocks.desk.keyboard import Keyboard
 from driveblocks.desk.run import demo, probe, source
@@ -23,8 +23,8 @@ from driveblocks.desk.run.options import Options
 from driveblocks.desk.run.setup import Setup
 from driveblocks.desk.screen import Lines
 from driveblocks.desk.simulate.link import TcpLink
-from driveblocks.desk.words import Refused
 from driveblocks.maps import catalog
+from driveblocks.maps.problem import Refused
 from driveblocks.simulator.drive import SimulatedDrive
 
 NET = 600
@@ -34,7 +34,7 @@ FAST = ("--fast", "--for", "8s", "--script", "run.txt")
 
 def run(*words: str | Path) -> Result:
     """Run the command."""
-    return CliRunner().invoke(command.run, [str(each) for each in words])
+    return CliRunner().invoke(app, ["run", *map(str, words)])
 
 
 @pytest.fixture(autouse=True)

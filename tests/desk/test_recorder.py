@@ -118,8 +118,7 @@ def test_what_is_stuck_does_not_keep_the_process_and_the_verdict_is_printed(
     printed: bool, left: Left, capfd: pytest.CaptureFixture[str]
 ) -> None:
     way = Departure(0.01, aside_s=NET)
-    if printed:
-        way.printed()
+    way.printed = printed
     way.begin(1, "NOT CONFIRMED: Motor\n")
     assert left.over.wait(NET)
     assert left.status == 1
@@ -129,7 +128,7 @@ def test_what_is_stuck_does_not_keep_the_process_and_the_verdict_is_printed(
 def test_a_process_that_ends_by_itself_is_left_alone(left: Left) -> None:
     way = Departure(NET)
     way.begin(1, "")
-    way.done()
+    way.done.set()
     for thread in threading.enumerate():
         if "_bound" in thread.name:
             thread.join(NET)

@@ -2,13 +2,15 @@
 
 import re
 from pathlib import Path
+from typing import Any
 
 import pytest
 from tests.desk.run.desk import Desk
 
 from driveblocks.desk import script
 from driveblocks.desk.keyboard import typed
-from driveblocks.desk.script import ScriptError, Setting
+from driveblocks.desk.script import Setting
+from driveblocks.maps.problem import Refused
 
 SCRIPT = """# a run
 at 2.5s: Start := TRUE   # up
@@ -44,7 +46,7 @@ def test_a_script_is_read_in_the_order_of_its_times() -> None:
 
 def test_everything_that_is_wrong_is_reported_with_its_place_and_nothing_is_set() -> None:
     desk = Desk()
-    with pytest.raises(ScriptError) as error:
+    with pytest.raises(Refused) as error:
         script.read("run.txt", WRONG, desk.instance)
     assert str(error.value) == TOLD
     assert (desk.instance["Start"], desk.instance["Divisor"]) == (False, 1)
@@ -92,4 +94,5 @@ def test_the_script_on_the_page_is_read() -> None:
     page = (Path(__file__).parents[2] / "docs/run.md").read_text(encoding="utf-8")
     (block,) = re.findall(r"with `--script`:\n\n```\n(.*?)^```", page, re.MULTILINE | re.DOTALL)
     wanted = [("Hertz", 30.0, 2_000_000), ("Start", True, 2_000_000), ("Start", False, 4_500_000)]
-    assert script.read("run.md", block, {"Hertz": 0.0, "Start": False}) == [Setting(*each) for each in wanted]
+    program: Any = {"Hertz": 0.0, "Start": False}
+    assert script.read("run.md", block, program) == [Setting(*each) for each in wanted]

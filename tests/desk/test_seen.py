@@ -112,7 +112,7 @@ def test_frames_that_were_not_sent_stand_in_the_table() -> None:
 
 def test_a_trace_has_a_row_for_every_change() -> None:
     file = io.StringIO()
-    trace = Trace(file, ("A", "B"), "SIMULATED, my.st")
+    trace = Trace(file.write, ("A", "B"), "SIMULATED, my.st")
     for at, a, b in ((0, False, 1.0), (10_000, False, 1.0), (20_000, True, 1.0), (30_000, True, 1.5)):
         trace.add(at, {"A": a, "B": b})
     assert file.getvalue() == "# SIMULATED, my.st\nms,A,B\n0,0,1\n20,1,1\n30,1,1.5\n"

@@ -10,8 +10,9 @@ from typing import Any
 
 import pytest
 
+from driveblocks.maps.problem import Refused
 from driveblocks.output import transaction
-from driveblocks.output.manifest import Refused, text_digest
+from driveblocks.output.manifest import text_digest
 from structured_text import files
 
 OLD = {"page": "old page", "a/kept": "kept", "a/changed": "old", "gone/b/left": "left"}

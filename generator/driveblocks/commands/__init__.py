@@ -12,7 +12,6 @@ from structured_text.visible import file_name
 
 if TYPE_CHECKING:
     from driveblocks.maps.collection import Source
-    from driveblocks.maps.model import Drive
 
 FILE = click.Path(path_type=Path)
 MAPS = click.argument(
@@ -61,25 +60,8 @@ JUNIT = click.option(
 )
 
 
-def loaded(name: str) -> "tuple[Path, Drive]":
-    """The map that a word of the command line names. Ends with status 2 if it is none, or bad."""
-    from driveblocks.maps import catalog
-    from driveblocks.maps.load import load
-    from driveblocks.maps.problem import MapError
-
-    try:
-        path = catalog.resolve(name)
-        return path, load(path)
-    except (catalog.UnknownDrive, MapError) as error:
-        refuse(str(error))
-
-
 def sources(maps: tuple[str, ...]) -> "list[Source]":
-    """Load the maps; all mistakes of all of them are reported before it ends with status 2."""
+    """Load the maps. Raises Refused with all mistakes of all of them."""
     from driveblocks.maps import catalog, collection
-    from driveblocks.maps.problem import MapError
 
-    try:
-        return collection.read(catalog.chosen(maps))
-    except (MapError, catalog.UnknownDrive) as error:
-        refuse(str(error))
+    return collection.read(catalog.chosen(maps))

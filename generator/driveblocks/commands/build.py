@@ -98,15 +98,13 @@ def _carried_out(folder: Path, maps: tuple[str, ...], asked: "Wanted", force: bo
 @contextlib.contextmanager
 def _told(folder: Path) -> Iterator[None]:
     """Say what is wrong with maps or folder, and end with status 2."""
-    from driveblocks.maps.catalog import UnknownDrive
-    from driveblocks.maps.problem import MapError
-    from driveblocks.output.manifest import Refused
+    from driveblocks.maps.problem import Refused
     from driveblocks.output.transaction import interrupted
     from driveblocks.platforms.problem import ExportError
 
     try:
         yield
-    except (MapError, ExportError, UnknownDrive, Refused) as error:
+    except (ExportError, Refused) as error:
         refuse("\n".join([str(error), *getattr(error, "__notes__", ())]))
     except OSError as error:
         left = "the next build puts the old output back" if interrupted(folder) else "nothing was changed"
@@ -120,16 +118,12 @@ def _folder(output: str) -> Path:
 
 
 def _measured(site: Path | None) -> Mapping[str, "Sequence[Measured]"]:
-    """What was found of single drives, by the name of their map. Ends with status 2 for a bad file."""
+    """What was found of single drives, by the name of their map. Raises Refused for a bad file."""
     if site is None:
         return {}
     from driveblocks.desk.site import kept, sheet
-    from driveblocks.maps.problem import MapError
 
-    try:
-        return sheet.measured(kept.read(site))
-    except MapError as error:
-        refuse(str(error))
+    return sheet.measured(kept.read(site))
 
 
 def _again(options: "Mapping[str, str | Path | None]", maps: tuple[str, ...], only: bool) -> str:

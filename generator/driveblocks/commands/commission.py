@@ -6,7 +6,7 @@ from typing import Any
 
 import click
 
-from driveblocks.commands import FILE, refuse
+from driveblocks.commands import FILE
 
 
 @click.command()
@@ -31,10 +31,5 @@ def run(**words: Any) -> None:
     Example: driveblocks commission chf --port /dev/ttyUSB0 --label Pump
     """
     from driveblocks.desk.site import hour
-    from driveblocks.desk.words import Refused
 
-    try:
-        found = hour.run(hour.Words(**words), input)
-    except Refused as refused:
-        refuse(str(refused))
-    sys.exit(1 if found.ended else 0)
+    sys.exit(1 if hour.run(hour.Words(**words), input).ended else 0)

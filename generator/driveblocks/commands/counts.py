@@ -26,7 +26,6 @@ def run(pages: tuple[Path, ...], check: bool) -> None:
     Example: driveblocks counts README.md vendor_maps/README.md
     """
     from driveblocks.maps import inventory
-    from driveblocks.maps.problem import MapError
 
     try:
         maps = _maps()
@@ -35,8 +34,6 @@ def run(pages: tuple[Path, ...], check: bool) -> None:
             return
         old = {page: files.text(page) for page in pages}
         current = {page: inventory.update(text, maps, page.parent) for page, text in old.items()}
-    except MapError as error:
-        refuse(str(error))
     except (OSError, ValueError) as error:
         refuse(f"cannot write the table: {error}")
     stale = [page for page in old if old[page] != current[page]]

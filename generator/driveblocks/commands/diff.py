@@ -30,14 +30,13 @@ def run(old: str, new: str, changelog: bool, json: bool) -> None:
     """
     from driveblocks.diff import versions
     from driveblocks.diff.change import Kind
-    from driveblocks.maps.catalog import UnknownDrive
-    from driveblocks.maps.problem import MapError
+    from driveblocks.maps.problem import Refused
 
     wrong, found = [], []
     for name in (old, new):
         try:
             found.append(versions.version(name))
-        except (MapError, UnknownDrive, ValueError, OSError) as error:
+        except (Refused, ValueError, OSError) as error:
             wrong.append(str(error))
     if wrong:
         refuse("\n".join(wrong))

@@ -5,8 +5,6 @@ from typing import TYPE_CHECKING
 
 import click
 
-from driveblocks.commands import loaded, refuse
-
 if TYPE_CHECKING:
     from driveblocks.desk.explain.explanation import Explanation
     from driveblocks.maps.model import Drive
@@ -33,15 +31,12 @@ def run(frame: str, drive: str | None, request: str | None, json: bool) -> None:
     """
     from driveblocks.desk.explain.explanation import Explainer
     from driveblocks.desk.explain.paste import read
-    from driveblocks.desk.explain.unreadable import UnreadableError
+    from driveblocks.maps import load
 
-    path, known = loaded(drive) if drive is not None else (None, None)
-    name = "stdin" if frame == "-" else "frame"
-    try:
-        asked = read(request, "request") if request is not None else None
-        made = Explainer(known).explain(read(_stdin() if frame == "-" else frame, name), asked)
-    except UnreadableError as error:
-        refuse(str(error))
+    path, known = load.named(drive) if drive is not None else (None, None)
+    asked = read(request, "request") if request is not None else None
+    pasted = read(_stdin(), "stdin") if frame == "-" else read(frame, "frame")
+    made = Explainer(known).explain(pasted, asked)
     _print(made, known, path.stem if path is not None else None, json)
     if not made.good:
         sys.exit(1)

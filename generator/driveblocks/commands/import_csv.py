@@ -43,8 +43,6 @@ def run(
         text = sys.stdin.read() if file == "-" else files.text(Path(file))
         how = table.Reading(named, addresses, factor)
         made = table.read(text, "the input" if file == "-" else file_name(file), how)
-    except (table.TableError, files.BadFile) as error:
-        refuse(str(error))
     except UnicodeDecodeError:
         refuse("the input cannot be read: it is not UTF-8; save it as such")
     rows = "".join(f"      - {each}\n" for each in made.rows)

@@ -5,7 +5,7 @@ from typing import Any
 
 import click
 
-from driveblocks.commands import FILE, only_over, refuse, write
+from driveblocks.commands import FILE, only_over, write
 
 PICTURE = only_over(rb"<svg [^>]*>\s*<title>One round of polls: ", "line --picture")
 
@@ -56,12 +56,8 @@ def run(picture: Path | None, json: bool, **words: Any) -> None:
     from driveblocks.desk.site import asked, report
     from driveblocks.desk.site import picture as pictures
     from driveblocks.desk.site.line import figures
-    from driveblocks.desk.words import Refused
 
-    try:
-        line = asked.line(asked.Words(**words))
-    except Refused as refused:
-        refuse(str(refused))
+    line = asked.line(asked.Words(**words))
     tried = [figures(line, rate) for rate in line.rates()]
     own = next(each for each in tried if each.rate == line.rate)
     if picture is not None:

@@ -93,7 +93,6 @@ def _library(sources: list[tuple[str, str]], maps: tuple[str, ...]) -> list[tupl
     """Those files of the library, by path and text, that sources need beside what they declare themselves."""
     from driveblocks.desk.run.source import known, needed
     from driveblocks.maps import catalog
-    from driveblocks.maps.problem import MapError
     from structured_text.language.lint import Selection, lint_sources
     from structured_text.language.parser import ParseError, parse
 
@@ -103,13 +102,10 @@ def _library(sources: list[tuple[str, str]], maps: tuple[str, ...]) -> list[tupl
         except ParseError as error:
             return error.unit
 
-    try:
-        named = [catalog.resolve(name) for name in maps]
-        if not lint_sources(sources, Selection(frozenset({"undeclared-name", "unknown-type"}))):
-            return []
-        files = needed([parsed(*each) for each in sources], known(named))
-    except (catalog.UnknownDrive, MapError) as error:
-        refuse(str(error))
+    named = [catalog.resolve(name) for name in maps]
+    if not lint_sources(sources, Selection(frozenset({"undeclared-name", "unknown-type"}))):
+        return []
+    files = needed([parsed(*each) for each in sources], known(named))
     return [(f"library/{file.path}", file.text) for file in files]
 
 

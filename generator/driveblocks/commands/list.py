@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from driveblocks.commands import MAPS, refuse
+from driveblocks.commands import MAPS
 
 if TYPE_CHECKING:
     from driveblocks.maps.model import Drive
@@ -24,10 +24,7 @@ def run(maps: tuple[str, ...], json: bool) -> None:
     """
     from driveblocks.maps import catalog
 
-    try:
-        paths = catalog.chosen(maps)
-    except catalog.UnknownDrive as unknown:
-        refuse(str(unknown))
+    paths = catalog.chosen(maps)
     loaded = {path: drive for path in paths if (drive := _load(path)) is not None}
     if json:
         _print_json(loaded)

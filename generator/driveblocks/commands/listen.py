@@ -5,7 +5,7 @@ from typing import Any
 
 import click
 
-from driveblocks.commands import FILE, refuse
+from driveblocks.commands import FILE
 
 
 @click.command()
@@ -31,12 +31,8 @@ def run(json: bool, **words: Any) -> None:
 
     from driveblocks import console
     from driveblocks.desk.site import listen, overheard
-    from driveblocks.desk.words import Refused
 
-    try:
-        way, traffic, ended, wrong = listen.run(listen.Words(**words))
-    except Refused as refused:
-        refuse(str(refused))
+    way, traffic, ended, wrong = listen.run(listen.Words(**words))
     if json:
         told = overheard.plain(way, traffic) | {"ended": ended, "not_complete": wrong}
         click.echo(dumps(told, ensure_ascii=False, indent=2))

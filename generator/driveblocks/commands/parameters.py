@@ -49,12 +49,9 @@ def save(drive: str, file: Path, **words: Any) -> None:
     """
     from driveblocks.desk.site import drives
     from driveblocks.desk.site.reader import LostError
-    from driveblocks.desk.words import Refused
 
     try:
         told, complete = drives.save(drive, file, drives.Place(**words))
-    except Refused as refused:
-        refuse(str(refused))
     except LostError as lost:
         click.echo(str(lost), err=True)
         sys.exit(1)
@@ -79,11 +76,10 @@ def compare(left: str, right: str, everything: bool, own: str | None, **words: A
     from driveblocks import console
     from driveblocks.desk.site import drives
     from driveblocks.desk.site.reader import LostError
-    from driveblocks.desk.words import Refused
 
     try:
         told, differs = drives.compare((left, right), drives.Place(**words), own, everything=everything)
-    except (Refused, LostError) as refused:
-        refuse(str(refused))
+    except LostError as lost:
+        refuse(str(lost))
     console.write(*told)
     sys.exit(1 if differs else 0)

@@ -5,8 +5,7 @@ from typing import Any
 
 import click
 
-from driveblocks.commands import FILE, refuse
-from structured_text import files
+from driveblocks.commands import FILE
 
 
 @click.command()
@@ -62,12 +61,8 @@ def run(show: tuple[str, ...], **words: Any) -> None:
     from driveblocks.desk.run import permission
     from driveblocks.desk.run.options import Options
     from driveblocks.desk.run.setup import Setup
-    from driveblocks.desk.words import Refused
 
     options = Options(show=tuple(",".join(show).replace(",", " ").split()), **words)
-    try:
-        keyboard = Keyboard(0)
-        made = Setup(options, keyboard)
-        sys.exit(made.run(permission.ask(made.probe, keyboard) if options.allow_run else frozenset()))
-    except (Refused, files.BadFile) as refused:
-        refuse(str(refused))
+    keyboard = Keyboard(0)
+    made = Setup(options, keyboard)
+    sys.exit(made.run(permission.ask(made.probe, keyboard) if options.allow_run else frozenset()))

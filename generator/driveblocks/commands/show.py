@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from driveblocks.commands import loaded, refuse
+from driveblocks.commands import refuse
 
 if TYPE_CHECKING:
     from rich.console import RenderableType
@@ -31,9 +31,9 @@ def run(drive: str, what: str | None, json: bool) -> None:
     driveblocks show sn300g5 1EH, driveblocks show chf errata, driveblocks show jscc --json
     """
     from driveblocks import console
-    from driveblocks.maps import catalog
+    from driveblocks.maps import catalog, load
 
-    path, known = loaded(drive)
+    path, known = load.named(drive)
     topic = what.lower() if what and what.lower() in TOPICS else None
     if json:
         _print_json(known, path.stem, what, topic)

@@ -35,7 +35,6 @@ def run(drives: tuple[str, ...], form: str, schema: bool, frames: bool, **words:
     from driveblocks.desk import scenario as scenarios
     from driveblocks.desk.explain.trace import Tracer
     from driveblocks.desk.simulate.setup import Setup, Words
-    from driveblocks.desk.words import Refused
 
     if schema:
         click.echo(scenarios.schema(), nl=False)
@@ -43,7 +42,4 @@ def run(drives: tuple[str, ...], form: str, schema: bool, frames: bool, **words:
     if not drives:
         refuse("name a drive; for example: driveblocks simulate jscc@1")
     made = Words(drives=drives, form=form.upper(), **words)
-    try:
-        Setup(made, (lambda maps: Tracer(maps).lines) if frames else None).run()
-    except Refused as refused:
-        refuse(str(refused))
+    Setup(made, (lambda maps: Tracer(maps).lines) if frames else None).run()

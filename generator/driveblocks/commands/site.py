@@ -29,15 +29,11 @@ def run(file: Path, target: str, html: Path | None, report: str | None, maps: tu
     from driveblocks.desk.site import kept, sheet
     from driveblocks.maps import catalog
     from driveblocks.maps.load import load
-    from driveblocks.maps.problem import MapError
 
-    try:
-        entries = kept.read(file)
-        own = {path.stem: path for path in map(catalog.resolve, maps)}
-        names = {each.map for each in entries.values() if html}
-        drives = {each: load(own.get(each) or catalog.resolve(each)) for each in names}
-    except (MapError, catalog.UnknownDrive) as error:
-        refuse(str(error))
+    entries = kept.read(file)
+    own = {path.stem: path for path in map(catalog.resolve, maps)}
+    names = {each.map for each in entries.values() if html}
+    drives = {each: load(own.get(each) or catalog.resolve(each)) for each in names}
     if report is not None and report not in entries:
         refuse(f"{file} has no {report}; it has {', '.join(entries)}")
     if html is not None:

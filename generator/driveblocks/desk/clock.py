@@ -15,14 +15,15 @@ class Clock(Protocol):
 
 
 class RealClock:
-    """The machine's own."""
+    """The machine's own, since this one was made."""
+
+    def __init__(self) -> None:
+        self._begun_ns = time.monotonic_ns()
 
     def now_us(self) -> int:
-        """Since the machine was started, or so."""
-        return time.monotonic_ns() // 1000
+        return (time.monotonic_ns() - self._begun_ns) // 1000
 
     def sleep_until(self, us: int) -> None:
-        """Come back at that time, or a little later."""
         left = us - self.now_us()
         if left > 0:
             time.sleep(left / 1e6)
@@ -32,13 +33,10 @@ class VirtualClock:
     """Time that passes by sleeping alone."""
 
     def __init__(self) -> None:
-        """Begin at 0."""
         self._now = 0
 
     def now_us(self) -> int:
-        """Since the beginning."""
         return self._now
 
     def sleep_until(self, us: int) -> None:
-        """It is that time."""
         self._now = max(self._now, us)

@@ -3,15 +3,14 @@
 import os
 from collections.abc import Callable
 
-from driveblocks.desk.script import Setting, Variables, setting
-from structured_text.engines.engine import Value
+from driveblocks.desk.script import Setting, setting
+from structured_text.engines.engine import Instance, Value
 
 
 class Keyboard:
     """Lines of a file descriptor, read without the locks of sys.stdin, which a waiting thread would keep at the end."""
 
     def __init__(self, descriptor: int) -> None:
-        """Read from there."""
         self._descriptor = descriptor
         self._rest = b""
 
@@ -41,7 +40,7 @@ class Keyboard:
         ended()
 
 
-def is_variable(word: str, program: Variables) -> bool:
+def is_variable(word: str, program: Instance) -> bool:
     """Whether a line is the name of a variable."""
     try:
         program[word]
@@ -50,7 +49,7 @@ def is_variable(word: str, program: Variables) -> bool:
     return True
 
 
-def typed(line: str, inputs: tuple[str, ...], program: Variables) -> Setting:
+def typed(line: str, inputs: tuple[str, ...], program: Instance) -> Setting:
     """What a line sets: `NAME := VALUE`, or the number or name of a BOOL, which changes. Raises ValueError."""
     word = line.strip()
     if ":=" in word:

@@ -8,8 +8,8 @@ from contextlib import contextmanager
 from functools import partial
 from typing import Any, Protocol
 
+from driveblocks.desk.bus import Bus
 from driveblocks.desk.clock import Clock
-from driveblocks.desk.wire import Wire
 
 AGAIN_US = 1_000_000
 """Between two attempts to open a port that has gone."""
@@ -54,17 +54,14 @@ class WirePort:
     late_ms = 0
     error = ""
 
-    def __init__(self, wire: Wire, clock: Clock) -> None:
+    def __init__(self, wire: Bus, clock: Clock) -> None:
         """Drives on a wire, and their time."""
-        self._wire = wire
-        self._clock = clock
+        self._wire, self._clock = wire, clock
 
     def send(self, data: bytes) -> None:
-        """Bytes onto the line."""
         self._wire.send(data, self._clock.now_us())
 
     def receive(self) -> bytes:
-        """Bytes that have come."""
         return self._wire.receive(self._clock.now_us())
 
     def close(self) -> None:
@@ -88,7 +85,6 @@ class DevicePort:
         self.error = ""
 
     def send(self, data: bytes) -> None:
-        """Bytes onto the line."""
         if self._device is not None:
             try:
                 self._device.write(data)
@@ -96,7 +92,6 @@ class DevicePort:
                 self._gone(error)
 
     def receive(self) -> bytes:
-        """Bytes that have come."""
         if self._device is None:
             self._look_again()
         try:
@@ -106,7 +101,6 @@ class DevicePort:
             return b""
 
     def close(self) -> None:
-        """Give it back."""
         if self._device is not None:
             self._device.close()
             self._device = None
@@ -133,18 +127,12 @@ def reason(error: Exception) -> str:
     return str(getattr(error, "strerror", None) or error)
 
 
-class _Socket:
+class Socket:
     """A TCP connection as a device."""
 
-    def __init__(self, family: int, address: Any) -> None:
-        self._socket = socket.socket(family, socket.SOCK_STREAM)
-        try:
-            self._socket.settimeout(CONNECT_S)
-            self._socket.connect(address)
-            self._socket.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
-        except OSError:
-            self._socket.close()
-            raise
+    def __init__(self, address: tuple[str, int]) -> None:
+        self._socket = socket.create_connection(address, CONNECT_S)
+        self._socket.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
         self._socket.setblocking(False)
 
     def write(self, data: bytes) -> None:
@@ -216,9 +204,9 @@ class _Serial:
 def tcp(host: str, port: int, clock: Clock) -> DevicePort:
     """Serial bytes over TCP; a name is looked up once, since nobody knows how long that takes. Raises OSError."""
     why = OSError(errno.EADDRNOTAVAIL, "the name has no address")
-    for family, _, _, _, address in socket.getaddrinfo(host, port, type=socket.SOCK_STREAM):
+    for *_, (ip, *_) in socket.getaddrinfo(host, port, type=socket.SOCK_STREAM):
         try:
-            return DevicePort(partial(_Socket, family, address), clock)
+            return DevicePort(partial(Socket, (str(ip), port)), clock)
         except OSError as error:
             why = error
     raise why

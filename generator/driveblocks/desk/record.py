@@ -2,9 +2,8 @@
 
 import re
 from collections import deque
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from html import escape
-from typing import Protocol
 
 from structured_text.engines.engine import Value
 
@@ -22,29 +21,20 @@ _CHARACTER, _NUMBER = 8, 60
 """Room for a character of a name, and for the number beside it."""
 
 
-class Writer(Protocol):
-    """A file of text."""
-
-    def write(self, text: str, /) -> int:
-        """Write it."""
-
-
 class Trace:
     """A CSV file: a row for every scan in which something changed; its first line says whose port it was."""
 
-    def __init__(self, file: Writer, names: Sequence[str], port: str) -> None:
-        """Write the head."""
-        self._file = file
+    def __init__(self, write: Callable[[str], object], names: Sequence[str], port: str) -> None:
+        self._write = write
         self._last: list[str] | None = None
-        file.write(f"# {port}\n")
-        file.write(",".join(["ms", *names]) + "\n")
+        write(f"# {port}\n")
+        write(",".join(["ms", *names]) + "\n")
 
     def add(self, at_us: int, values: Mapping[str, Value]) -> None:
-        """One scan."""
         row = [_written(value) for value in values.values()]
         if row != self._last:
             self._last = row
-            self._file.write(",".join([f"{at_us / 1000:g}", *row]) + "\n")
+            self._write(",".join([f"{at_us / 1000:g}", *row]) + "\n")
 
 
 def _written(value: Value) -> str:
@@ -57,14 +47,12 @@ class Timing:
     """A timing diagram: a lane for each variable."""
 
     def __init__(self, names: Sequence[str], port: str, most: int = MOST_CHANGES) -> None:
-        """Begin."""
         self._port = port
         self._changes: dict[str, deque[tuple[int, float]]] = {name: deque(maxlen=most) for name in names}
         self._left = max(_LEFT, max(map(len, names), default=0) * _CHARACTER + _NUMBER)
         self._end_us = 1
 
     def add(self, at_us: int, values: Mapping[str, Value]) -> None:
-        """One scan."""
         self._end_us = max(1, at_us)
         for name, value in values.items():
             number = float(value) if isinstance(value, int | float) else 0.0
@@ -73,7 +61,6 @@ class Timing:
                 changes.append((at_us, number))
 
     def svg(self) -> str:
-        """The picture."""
         width, height = self._left + _PLOT + _RIGHT, _TOP + _LANE * len(self._changes) + 30
         parts = [
             f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" font-family="sans-serif" '

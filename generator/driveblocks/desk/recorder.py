@@ -37,7 +37,6 @@ class Recorder:
         self._thread.start()
 
     def add(self, at_us: int, values: Mapping[str, Value]) -> None:
-        """One scan."""
         try:
             self._rows.put((at_us, values), block=self._waits)
         except queue.Full:
@@ -52,11 +51,9 @@ class Recorder:
 
     @property
     def failed(self) -> bool:
-        """Whether the file could not be written."""
         return bool(self._error)
 
     def end(self) -> None:
-        """No more rows."""
         self._over.set()
 
     def finish(self, within_s: float) -> str:
@@ -86,17 +83,12 @@ class Recorder:
                     return
 
 
-class _Plain:
-    """A file without a buffer, whose lock a thread that is stuck would keep at the end of the process."""
-
-    def __init__(self, path: Path) -> None:
-        self._file = files.opened(path)
-        if path.is_file():
-            self._file.truncate(0)
-
-    def write(self, text: str) -> int:
-        self._file.add(text.encode("utf-8", "replace"))
-        return len(text)
+def _unbuffered(path: Path) -> Callable[[str], object]:
+    """Writes to an emptied file without a buffer, whose lock a thread that is stuck would keep to the very end."""
+    file = files.opened(path)
+    if path.is_file():
+        file.truncate(0)
+    return lambda text: file.add(text.encode("utf-8", "replace"))
 
 
 def trace(path: Path, names: Sequence[str], port: str, *, waits: bool) -> Recorder:
@@ -106,7 +98,7 @@ def trace(path: Path, names: Sequence[str], port: str, *, waits: bool) -> Record
     def keep(rows: Iterator[Row]) -> None:
         begun = [] if pipe else [*islice(rows, 1)]
         if pipe or begun:
-            made = Trace(_Plain(path), names, port)
+            made = Trace(_unbuffered(path), names, port)
             for row in chain(begun, rows):
                 made.add(*row)
 

@@ -30,8 +30,6 @@ Act = Callable[[Sequence[SimulatedDrive], Loss], None]
 
 @dataclass(frozen=True)
 class Happening:
-    """Something that happens at a time."""
-
     at_us: int
     says: str
     act: Act
@@ -117,8 +115,6 @@ def _steps(root: Node, report: Report, drives: Mapping[int, Drive]) -> Iterator[
 
 
 class _Step:
-    """One line of a scenario."""
-
     def __init__(self, report: Report, drives: Mapping[int, Drive], key: Scalar) -> None:
         self._report, self._drives = report, drives
         found = _AT.fullmatch(key.text)

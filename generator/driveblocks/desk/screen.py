@@ -55,12 +55,10 @@ class Lines:
         self._shown: dict[str, tuple[int, Value]] = {}
 
     def say(self, text: str) -> None:
-        """One line."""
         sys.stdout.write(f"{self._label}  {text}\n")
         sys.stdout.flush()
 
     def show(self, view: View) -> None:
-        """What has changed."""
         for drive in view.drives:
             now = drive.state if self._brief else f"{drive.state}; {drive.why}"
             if self._drives.get(drive.name) != now:
@@ -96,7 +94,6 @@ class Plots:
     """The frequency of each drive over the last seconds, on a terminal that has room for it."""
 
     def __init__(self, terminal: Console) -> None:
-        """Empty."""
         self._terminal = terminal
         self._hertz: dict[tuple[str, int], deque[float]] = {}
         self._next_us = 0
@@ -107,7 +104,6 @@ class Plots:
         return self._terminal.width >= WIDE and not self._terminal.options.ascii_only
 
     def add(self, view: View) -> None:
-        """How things are."""
         if view.at_us >= self._next_us:
             self._next_us = view.at_us + PLOT_US
             for each in view.drives:
@@ -125,7 +121,6 @@ class LiveTable:
     """A table on a terminal, drawn anew in its place; messages go above it."""
 
     def __init__(self, heading: Heading) -> None:
-        """Begin."""
         self._heading = heading
         self._console = console.terminal()
         self._plots = Plots(self._console)
@@ -137,7 +132,6 @@ class LiveTable:
         self._console.print(Text(text, overflow="fold"))
 
     def show(self, view: View) -> None:
-        """Draw the table."""
         self._plots.add(view)
         self._live.update(Group(*_parts(self._heading, view, self._plots)), refresh=True)
 
@@ -150,7 +144,6 @@ class Desk:
     """A whole terminal: a table at its top, and its last row for what a person types, which no drawing touches."""
 
     def __init__(self, heading: Heading) -> None:
-        """Begin."""
         self._heading = heading
         self._console = console.terminal()
         self._plots = Plots(self._console)

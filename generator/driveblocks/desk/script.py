@@ -1,12 +1,11 @@
 """What a person, or a script in their place, sets in a running program: `at 2.5s: Start1 := TRUE`."""
 
 import re
-from collections.abc import Sequence
 from dataclasses import dataclass
 from math import isfinite
-from typing import Protocol
 
-from structured_text.engines.engine import Message, Value
+from driveblocks.maps.problem import Refused
+from structured_text.engines.engine import Instance, Message, Value
 
 _UNITS = {"ms": 1_000, "s": 1_000_000, "min": 60_000_000}
 _TIME = re.compile(r"([0-9]{1,12}(?:\.[0-9]{1,12})?)\s*(ms|s|min)")
@@ -15,16 +14,6 @@ _SETTING = re.compile(r"\s*(?P<name>[A-Za-z_][\w.\[\],]*)\s*:=\s*(?P<value>.*?)\
 _COMMENT = re.compile(r"(?<!\S)#")
 """A number sign that begins a word; in 16#FF it does not."""
 _WHOLE = re.compile(r"[-+]?\d+|(?P<base>16|8|2)#(?P<digits>[0-9A-Fa-f_]+)")
-
-
-class Variables(Protocol):
-    """A running program."""
-
-    def __getitem__(self, path: str) -> Value:
-        """Read a variable. KeyError."""
-
-    def __setitem__(self, path: str, value: Value) -> None:
-        """Write one. KeyError, ValueError."""
 
 
 @dataclass(frozen=True)
@@ -36,15 +25,6 @@ class Setting:
     at_us: int = 0
 
 
-class ScriptError(Exception):
-    """What is wrong with a script, each with its place."""
-
-    def __init__(self, messages: Sequence[Message]) -> None:
-        """Keep the messages; the text is one per line."""
-        self.messages = tuple(messages)
-        super().__init__("\n".join(map(str, messages)))
-
-
 def duration_us(text: str) -> int:
     """`60s`, `10ms`, `2.5 s`, `1min` in microseconds. Raises ValueError, which says what would be right."""
     found = _TIME.fullmatch(text.strip())
@@ -53,8 +33,8 @@ def duration_us(text: str) -> int:
     return round(float(found[1]) * _UNITS[found[2]])
 
 
-def read(path: str, text: str, program: Variables) -> list[Setting]:
-    """A script in the order of its times; `#` begins a comment. Raises ScriptError with everything that is wrong."""
+def read(path: str, text: str, program: Instance) -> list[Setting]:
+    """A script in the order of its times; `#` begins a comment. Raises Refused with everything that is wrong."""
     settings: list[Setting] = []
     wrong: list[Message] = []
     for number, line in enumerate(text.splitlines(), 1):
@@ -66,7 +46,7 @@ def read(path: str, text: str, program: Variables) -> list[Setting]:
         except _Wrong as error:
             wrong.append(Message(path, number, error.column, str(error)))
     if wrong:
-        raise ScriptError(wrong)
+        raise Refused("\n".join(map(str, wrong)))
     return sorted(settings, key=lambda each: each.at_us)
 
 
@@ -76,7 +56,7 @@ class _Wrong(Exception):  # noqa: N818  (a mistake in a script is no error of th
         super().__init__(text)
 
 
-def _line(line: str, program: Variables) -> list[Setting]:
+def _line(line: str, program: Instance) -> list[Setting]:
     start = len(line) - len(line.lstrip())
     found = _LINE.fullmatch(line.strip())
     if found is None:
@@ -94,14 +74,14 @@ def _line(line: str, program: Variables) -> list[Setting]:
     return made
 
 
-def _placed(part: str, column: int, program: Variables, at_us: int) -> Setting:
+def _placed(part: str, column: int, program: Instance, at_us: int) -> Setting:
     try:
         return setting(part, program, at_us)
     except ValueError as error:
         raise _Wrong(column + len(part) - len(part.lstrip()) + 1, str(error)) from None
 
 
-def setting(text: str, program: Variables, at_us: int = 0) -> Setting:
+def setting(text: str, program: Instance, at_us: int = 0) -> Setting:
     """`NAME := VALUE` of a variable of the program. Raises ValueError, which says what would be right."""
     found = _SETTING.fullmatch(text)
     if found is None:

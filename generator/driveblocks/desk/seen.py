@@ -7,8 +7,6 @@ from structured_text.engines.engine import Value
 
 @dataclass(frozen=True)
 class Seen:
-    """A drive at a moment."""
-
     name: str
     unit: int
     state: str

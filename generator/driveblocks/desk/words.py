@@ -2,17 +2,17 @@
 
 import errno
 import re
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 from driveblocks.desk import script
+from driveblocks.desk.port import reason
+from driveblocks.maps.problem import Refused
 from structured_text import files
 
 NO_PORT = "--port names no port; write one such as /dev/ttyUSB0 or COM3"
 LOOPBACK = ("", "127.0.0.1", "localhost")
-
-
-class Refused(Exception):  # noqa: N818  (bad input is no error of the program)
-    """What is wrong with the words of the command line, or with what they name."""
 
 
 def is_port(number: str) -> bool:
@@ -29,6 +29,17 @@ def time(word: str, text: str, least: int, most: int) -> int:
     if not least <= us <= most:
         raise Refused(f"{word} {text} is out of range; write {least / 1e6:g}s to {most / 1e6:g}s")
     return us
+
+
+@contextmanager
+def opening(place: str, instead: str = "") -> Iterator[None]:
+    """Say why a port cannot be opened, and what to do instead. Raises Refused."""
+    try:
+        yield
+    except ImportError as error:
+        raise Refused(f"--port needs pyserial, which does not run here: {error}") from None
+    except (OSError, ValueError, OverflowError) as error:
+        raise Refused(f"{place}: {reason(error)}{instead}") from None
 
 
 def spare(path: Path, head: bytes, writer: str) -> None:

@@ -7,6 +7,7 @@ from collections.abc import Iterable
 from pathlib import Path
 
 import driveblocks
+from driveblocks.maps.problem import Refused
 from structured_text import files
 
 _PREFIX = re.compile(rb"^prefix: *['\"]?([A-Za-z0-9]+)", re.MULTILINE)
@@ -14,14 +15,8 @@ _HEAD = 8192
 """Bytes at the start of a map in which its `prefix` is looked for; comments may come before it."""
 
 
-class UnknownDrive(Exception):  # noqa: N818  (a mistyped name is no error of the program)
-    """A name that means no map, or several; `wrong` and `right` are the two halves of the message."""
-
-    def __init__(self, wrong: str, right: str) -> None:
-        """Keep both halves."""
-        self.wrong = wrong
-        self.right = right
-        super().__init__(f"{wrong}; {right}")
+class UnknownDrive(Refused):
+    """A name that means no map, or several."""
 
 
 def folder() -> Path:
@@ -32,7 +27,6 @@ def folder() -> Path:
 
 
 def shipped() -> tuple[Path, ...]:
-    """The shipped maps in the order of their names."""
     return tuple(sorted(folder().glob("*.yaml")))
 
 
@@ -60,14 +54,13 @@ def resolve(name: str) -> Path:
         if name and len(found) == 1:
             return found[0]
         if name and found:
-            raise UnknownDrive(f"`{name}` fits several drives", "write one of " + _list(p.stem for p in found))
+            raise UnknownDrive(f"`{name}` fits several drives; write one of {_list(p.stem for p in found)}")
     if name and os.path.exists(name):  # noqa: PTH110 - Path.exists raises for a name that is too long
         return Path(name)
     raise _unknown(name, maps)
 
 
 def is_shipped(path: Path) -> bool:
-    """Whether a map is one of those."""
     return path.resolve() in {each.resolve() for each in shipped()}
 
 
@@ -99,7 +92,7 @@ def _unknown(name: str, maps: dict[Path, tuple[str, ...]]) -> UnknownDrive:
     near = difflib.get_close_matches(name.lower(), stems, 3, 0.5)
     known = f"known drives are {_list(p.stem for p in maps)}; the path of a .yaml file will do, too"
     guess = f"did you mean {_list(stems[one] for one in near)}? " if near else ""
-    return UnknownDrive(f"there is no drive `{name}`", guess + known)
+    return UnknownDrive(f"there is no drive `{name}`; {guess}{known}")
 
 
 def _list(names: Iterable[str]) -> str:

@@ -17,6 +17,12 @@ _STEM = re.compile(
 """What names a folder on every system; the devices of Windows do not."""
 
 
+def named(name: str) -> tuple[Path, Drive]:
+    """The map that a word of the command line names. Raises Refused if it is none, or bad."""
+    path = catalog.resolve(name)
+    return path, load(path)
+
+
 def load(path: Path) -> Drive:
     """Load and check the map at `path`. Raises MapError with every mistake, sorted by line and column."""
     report = Report(str(path))

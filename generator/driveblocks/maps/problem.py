@@ -13,8 +13,6 @@ MAX_PROBLEMS = 1000
 
 @dataclass(frozen=True, order=True)
 class Problem:
-    """One mistake in one file."""
-
     file: str
     line: int
     column: int
@@ -26,7 +24,11 @@ class Problem:
         return f"{file_name(self.file)}:{self.line}:{self.column}: {self.wrong}; {self.right}"
 
 
-class MapError(Exception):
+class Refused(Exception):  # noqa: N818  (bad input is no error of the program)
+    """What is wrong with the words of the command line, or with what they name; a command then ends with status 2."""
+
+
+class MapError(Refused):
     """A map that cannot be used; `problems` holds every mistake found, in file order."""
 
     def __init__(self, problems: list[Problem]) -> None:

@@ -15,6 +15,7 @@ from driveblocks.maps import cell, form
 from driveblocks.maps.cell import NOTHING, Way
 from driveblocks.maps.factor import doubt
 from driveblocks.maps.model import Unit
+from driveblocks.maps.problem import Refused
 from structured_text.visible import file_name
 
 COLUMNS = {
@@ -46,7 +47,7 @@ _TAKEN = {"yes", "no", "on", "off", "true", "false", "null"}
 """What YAML may take for something else than a text."""
 
 
-class TableError(Exception):
+class TableError(Refused):
     """What no row can be made of, for a person: each line names its place."""
 
 
@@ -136,7 +137,6 @@ class _Row:
         self.asked: list[str] = []
 
     def read(self, how: Reading) -> None:
-        """Make the row."""
         self._address(how)
         self._name()
         self._access()

@@ -8,9 +8,9 @@ from pathlib import Path
 from driveblocks.docs.page import Measured, Own, documents
 from driveblocks.maps import catalog
 from driveblocks.maps.collection import Source, read
-from driveblocks.maps.problem import MapError
+from driveblocks.maps.problem import MapError, Refused
 from driveblocks.output import links, manifest, transaction
-from driveblocks.output.manifest import Manifest, Refused, State
+from driveblocks.output.manifest import Manifest, State
 from driveblocks.platforms import CANONICAL, TARGETS, is_yours, writers
 from driveblocks.platforms.part import shelf
 from driveblocks.render import library

@@ -11,6 +11,7 @@ from functools import lru_cache
 from pathlib import Path, PurePosixPath
 from typing import Any
 
+from driveblocks.maps.problem import Refused
 from structured_text import files
 
 NAME = ".driveblocks.json"
@@ -21,10 +22,6 @@ MALFORMED = (ValueError, TypeError, KeyError, AttributeError, RecursionError)
 """What reading a file raises that holds something else."""
 OLDEST = "iec61131"
 """The target of a folder whose manifest names none: there was no other."""
-
-
-class Refused(Exception):  # noqa: N818  (what the user has there is no error of the program)
-    """The folder holds what a build must not touch; the text says what and what would be right."""
 
 
 class State(StrEnum):
@@ -105,7 +102,6 @@ def made(
 
 
 def parents(names: Iterable[str]) -> list[str]:
-    """All folders of files, each before those inside it."""
     folders = {PurePosixPath(name.rpartition("/")[0]) for name in names}
     found = {str(each) for folder in folders for each in (folder, *folder.parents)}
     return sorted(found - {"."})

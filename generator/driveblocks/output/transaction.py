@@ -15,7 +15,8 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from driveblocks.output.manifest import MALFORMED, Refused, barrier_to, below, digest, parents, text_digest, words
+from driveblocks.maps.problem import Refused
+from driveblocks.output.manifest import MALFORMED, barrier_to, below, digest, parents, text_digest, words
 from structured_text import files
 
 WORK, DONE, LOCK = ".driveblocks.work", ".driveblocks.done", ".driveblocks.lock"

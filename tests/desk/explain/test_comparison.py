@@ -5,7 +5,7 @@ from contextlib import suppress
 import pytest
 from tests.desk.explain.explaining import Explain, rtu
 
-from driveblocks.desk.explain.unreadable import UnreadableError
+from driveblocks.maps.problem import Refused
 
 READ = "01 03 20 00 00 01 8F CA"
 RUN = "01 06 10 00 00 01 4C CA"
@@ -114,7 +114,7 @@ def test_a_wrong_reply_is_repaired_and_read_with_the_names_of_the_request(explai
     ],
 )
 def test_requests_that_are_none(explain: Explain, request_frame: str, message: str) -> None:
-    with pytest.raises(UnreadableError) as caught:
+    with pytest.raises(Refused) as caught:
         explain("JSCC", "01 03 02 01 F4 B8 53", request_frame)
     assert str(caught.value).startswith(message)
 
@@ -124,5 +124,5 @@ def test_requests_that_are_none(explain: Explain, request_frame: str, message: s
 def test_a_request_of_any_quantity_is_compared(explain: Explain, function: int, quantity: int) -> None:
     request = rtu(f"01 {function:02X} 20 00 {quantity:04X}" + (" 02 00 00" if function == 15 else ""))
     for reply in (rtu("01 03 02 01 F4"), rtu(f"01 {function:02X} 20 00 {quantity:04X}"), rtu("01 04 00 01")):
-        with suppress(UnreadableError):
+        with suppress(Refused):
             assert explain("", reply, request).asked

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from driveblocks.desk.explain.characters import BLANKS, NOT_SHOWN
 from driveblocks.desk.explain.paste import LONGEST, Form, read
-from driveblocks.desk.explain.unreadable import UnreadableError
+from driveblocks.maps.problem import Refused
 
 REPLY = bytes.fromhex("01 03 02 01 F4 B8 53")
 ASCII = b":010320000001DB\r\n"
@@ -190,7 +190,7 @@ def test_ascii_frames_as_bytes(text: str) -> None:
     ],
 )
 def test_what_cannot_be_read(text: str, message: str) -> None:
-    with pytest.raises(UnreadableError) as caught:
+    with pytest.raises(Refused) as caught:
         read(text)
     assert str(caught.value) == message
 
@@ -200,7 +200,7 @@ def test_any_text_is_read_or_refused_with_its_place(text: str) -> None:
     told, paste = "", None
     try:
         paste = read(text, "-")
-    except UnreadableError as error:
+    except Refused as error:
         told = str(error)
     assert told.startswith("-:") if paste is None else paste.data
 

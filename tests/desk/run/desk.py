@@ -6,6 +6,7 @@ from pathlib import Path
 
 from tests.simulator.talk import MAPS
 
+from driveblocks.desk.bus import Bus
 from driveblocks.desk.clock import VirtualClock
 from driveblocks.desk.ending import Ending
 from driveblocks.desk.port import WirePort
@@ -13,7 +14,6 @@ from driveblocks.desk.run import source, wiring
 from driveblocks.desk.run.controller import Controller
 from driveblocks.desk.run.session import Session
 from driveblocks.desk.run.watchdog import Watchdog
-from driveblocks.desk.wire import Wire
 from driveblocks.maps import catalog
 from driveblocks.maps.collection import Source
 from driveblocks.simulator.drive import SimulatedDrive
@@ -72,7 +72,7 @@ def wired(text: str) -> wiring.Wiring:
 class Line(WirePort):
     """A simulated line that notes what leaves and can fall silent."""
 
-    def __init__(self, wire: Wire, clock: VirtualClock) -> None:
+    def __init__(self, wire: Bus, clock: VirtualClock) -> None:
         """As it is."""
         super().__init__(wire, clock)
         self.sent: list[bytes] = []
@@ -99,7 +99,7 @@ class Desk:
         program = loaded(self.text)
         self.clock = VirtualClock()
         self.controller = Controller(program.library, program.program.name, wired(self.text), program.drives, SCAN_US)
-        self.line = Line(Wire(self.drives, 19200, 10, ascii_mode="Ascii := TRUE" in self.text), self.clock)
+        self.line = Line(Bus(self.drives, 19200, 10, ascii_mode="Ascii := TRUE" in self.text), self.clock)
         self.ending = Ending()
         self.session = Session(self.controller, self.clock, self.ending, SCAN_US)
         self.session.watchdog = Watchdog(now_us=lambda: 0)  # the time of this machine is none of its business
@@ -110,7 +110,7 @@ class Desk:
     def _probed(self, program: source.Loaded) -> Controller:
         """The program after a scan without a port: a run that ends before its first scan stops the drives of this."""
         probe = Controller(program.library, program.program.name, wired(self.text), program.drives, SCAN_US)
-        nobody = Line(Wire([], 19200, 10, ascii_mode=False), VirtualClock())
+        nobody = Line(Bus([], 19200, 10, ascii_mode=False), VirtualClock())
         probe.connect(nobody, None)
         probe.scan(SCAN_US)
         return probe

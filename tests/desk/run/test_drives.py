@@ -10,8 +10,8 @@ from driveblocks.desk.run import drives as called
 from driveblocks.desk.run import simulated
 from driveblocks.desk.run.controller import Controller
 from driveblocks.desk.run.drives import Named
-from driveblocks.desk.words import Refused
 from driveblocks.maps import catalog
+from driveblocks.maps.problem import Refused
 
 FILES = {each.path.stem: (each.path, each.drive) for each in maps()}
 

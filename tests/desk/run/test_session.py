@@ -10,15 +10,15 @@ from tests.maps import bad
 from tests.simulator.talk import MAPS
 
 from driveblocks.desk import ending
+from driveblocks.desk.bus import Bus as Wire
 from driveblocks.desk.clock import VirtualClock
 from driveblocks.desk.ending import Ending
-from driveblocks.desk.port import AGAIN_US, DevicePort
 from driveblocks.desk.master import CHATTER_US, REPLY_US, Speech
+from driveblocks.desk.port import AGAIN_US, DevicePort
 from driveblocks.desk.run.gate import Gate
 from driveblocks.desk.run.pace import Pace
 from driveblocks.desk.run.stopper import Stop, Stopper
 from driveblocks.desk.script import Setting
-from driveblocks.desk.wire import Wire
 from driveblocks.maps import load
 from driveblocks.simulator.drive import SimulatedDrive
 from driveblocks.simulator.habits import Habits

@@ -14,7 +14,8 @@ from tests.simulator.talk import body, pairs, prepared
 from driveblocks.desk.bus import Bus
 from driveblocks.desk.clock import RealClock
 from driveblocks.desk.ending import Ending
-from driveblocks.desk.simulate.link import Link, PtyLink, TcpLink
+from driveblocks.desk.port import Port
+from driveblocks.desk.simulate.link import PtyLink, TcpLink
 from driveblocks.desk.simulate.stand import Stand
 
 MODES = {"rtu": FramerType.RTU, "ascii": FramerType.ASCII}
@@ -25,7 +26,7 @@ LINKS = [
 
 
 @contextmanager
-def serving(bus: Bus, link: Link) -> Iterator[None]:
+def serving(bus: Bus, link: Port) -> Iterator[None]:
     """Serve in a thread of its own."""
     ending = Ending()
     stand = Stand(bus, link, RealClock(), ending)
@@ -82,7 +83,7 @@ def test_exchanges_are_those_that_the_manuals_print(where: str, mode: str) -> No
             sent.clear()
             heard.clear()
             drive = prepared(prefix, request, reply)
-            bus.add(drive)
+            bus.drives = [*bus.drives, drive]
             ask(master, body(request))
             bus.drives = []
             assert (bytes(sent), bytes(heard)) == (request.correct, reply.correct), request.id

@@ -16,7 +16,6 @@ from driveblocks.desk.clock import VirtualClock
 from driveblocks.desk.explain.trace import Tracer
 from driveblocks.desk.simulate.link import WithoutEcho
 from driveblocks.desk.simulate.neighbour import LISTEN_US, Neighbours
-from driveblocks.desk.wire import Wire
 from driveblocks.modbus.frame import Mode, seal
 from driveblocks.simulator.drive import SimulatedDrive
 
@@ -135,11 +134,12 @@ def test_what_is_lost_and_damaged_is_counted(what: str, kept: int) -> None:
 class Line:
     """A line with real units in virtual time, perhaps with a master and with an echo of the adapter."""
 
+    late_ms = 0
     error = ""
 
     def __init__(self, clock: VirtualClock, units: tuple[int, ...], master: bytes = b"", *, echo: bool = False) -> None:
         self.clock, self.echo, self.master = clock, echo, master
-        self.wire = Wire([SimulatedDrive(MAPS["JSCC"], unit) for unit in units], 19200, 10)
+        self.wire = Bus([SimulatedDrive(MAPS["JSCC"], unit) for unit in units], 19200, 10)
         self.waiting = b""
         self.next_us = 0
 

@@ -8,13 +8,13 @@ from pathlib import Path
 import pytest
 from tests.desk.run.desk import BOX, maps
 
+from driveblocks.desk.bus import Bus
 from driveblocks.desk.clock import VirtualClock
 from driveblocks.desk.port import WirePort
 from driveblocks.desk.run import source, wiring
 from driveblocks.desk.run.controller import Controller
 from driveblocks.desk.site import asked
 from driveblocks.desk.site.line import Line, figures
-from driveblocks.desk.wire import Wire
 from driveblocks.maps.polls import polls
 from driveblocks.simulator.drive import SimulatedDrive
 from driveblocks.simulator.habits import Habits
@@ -58,7 +58,7 @@ class Plant:
         )
         self.clock = VirtualClock()
         self.sent: list[tuple[int, bytes]] = []
-        port = WirePort(Wire(drives, rate, 10), self.clock)
+        port = WirePort(Bus(drives, rate, 10), self.clock)
         send = port.send
         port.send = lambda data: (self.sent.append((self.clock.now_us() // 1000, data)), send(data))[1]  # type: ignore
         self.controller.connect(port, None)

@@ -25,8 +25,8 @@ from driveblocks.desk.site import saved
 from driveblocks.desk.site.reader import LostError, One, Reader, Reads
 from driveblocks.desk.site.register import rows, unread, value
 from driveblocks.desk.site.saved import Word
-from driveblocks.desk.words import Refused
 from driveblocks.maps.load import load
+from driveblocks.maps.problem import Refused
 from driveblocks.modbus.frame import seal
 from driveblocks.simulator.drive import SimulatedDrive
 

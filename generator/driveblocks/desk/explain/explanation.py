@@ -1,20 +1,22 @@
 """Everything that can be said of pasted bytes: good or wrong, what they say, what they might be instead."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 from driveblocks.desk.explain.comparison import compared
 from driveblocks.desk.explain.guess import guesses, shown
 from driveblocks.desk.explain.paste import Paste
 from driveblocks.desk.explain.reading import Field, Reader, Reading, Wrong
-from driveblocks.desk.explain.unreadable import UnreadableError
 from driveblocks.maps.model import Drive
 from driveblocks.maps.plan import dialect
+from driveblocks.maps.problem import Refused
 from driveblocks.modbus import layout, scan
 from driveblocks.modbus.envelope import Wire, open_
 from driveblocks.modbus.frame import ASCII_CHARS, RTU_BYTES
 from driveblocks.modbus.layout import Dialect
 from driveblocks.modbus.request import Asked, asked_by
 
+NOISE = "noise, a wrong bit rate or parity, or a typing error: none of the usual causes comes out"
 MOST_INSIDE = 16
 """Frames that are explained one by one when many are glued together."""
 
@@ -48,24 +50,23 @@ class Explainer:
     """Explains frames of one drive, or by the standard alone."""
 
     def __init__(self, drive: Drive | None = None) -> None:
-        """Take from the map how the drive refuses."""
         self.drive = drive
         self.dialect = dialect(drive) if drive is not None else Dialect()
 
     def explain(self, paste: Paste, request: Paste | None = None) -> Explanation:
-        """Explain a pasted frame, as the reply to a request if one is given. Raises UnreadableError for that one."""
+        """Explain a pasted frame, as the reply to a request if one is given. Raises Refused for that one."""
         asked, sent = self._asked(request) if request is not None else (None, None)
         made = self._explained(paste.data, asked, sent)
         return replace(made, notes=(*paste.notes, *made.notes, *self._examples(made)))
 
     def _asked(self, request: Paste) -> tuple[Asked, bytes]:
-        """The request that was pasted. Raises UnreadableError if it is no good request."""
+        """The request that was pasted. Raises Refused if it is no good request."""
         made = self._explained(request.data, None, None)
         taken = layout.take(made.wire.body, "request", self.dialect) if made.wire.right else None
         fits = taken is not None and taken.fits and any(one.direction == "request" for one in made.readings)
         if made.wrongs or taken is None or not fits:
             why = made.all_wrongs[0].what if made.all_wrongs else "it reads as a reply"
-            raise UnreadableError(f"request:1:1: this is no good request: {why}; paste the request as it was sent")
+            raise Refused(f"request:1:1: this is no good request: {why}; paste the request as it was sent")
         return asked_by(taken, ascii_mode=made.wire.mode == "ascii"), made.wire.frame
 
     # ------------------------------------------------------------ what kind of thing it is
@@ -74,7 +75,7 @@ class Explainer:
         wire = open_(data)
         pieces = scan.pieces(data, self.dialect)
         broken = tuple(Wrong(what, (instead,) if instead else ()) for what, instead in wire.broken)
-        broken = (*broken, *self._mode(wire), *_other_mode(wire, asked), *_size(wire))
+        broken = (*broken, *self._mode(wire, asked), *_size(wire))
         if len(pieces) > 1 and any(piece.good for piece in pieces) and not self._whole(wire):
             return self._zeros_behind(wire, asked, sent) or self._glued(wire, pieces, asked, sent)
         if not wire.right:
@@ -99,16 +100,19 @@ class Explainer:
         fits = len(wire.body) > 2 and any(one.fits for one in layout.readings(wire.body, self.dialect))
         return wire.right and not wire.broken and fits
 
-    def _mode(self, wire: Wire) -> tuple[Wrong, ...]:
-        if self.drive is None or wire.mode in self.drive.serial.mode.modes or not (wire.right or wire.mode == "ascii"):
-            return ()
-        speaks = " and ".join(mode.upper() for mode in self.drive.serial.mode.modes)
-        return (Wrong(f"this is {wire.mode.upper()}, and {self.drive.prefix} speaks {speaks} only"),)
+    def _mode(self, wire: Wire, asked: Asked | None) -> Iterator[Wrong]:
+        is_ascii, this = wire.mode == "ascii", f"this is {wire.mode.upper()}"
+        modes = self.drive.serial.mode.modes if self.drive else (wire.mode,)
+        if self.drive and wire.mode not in modes and (wire.right or is_ascii):
+            yield Wrong(f"{this}, and {self.drive.prefix} speaks {' and '.join(map(str.upper, modes))} only")
+        if asked is not None and asked.ascii != is_ascii:
+            yield Wrong(f"{this}, and the request was sent in {'ASCII' if asked.ascii else 'RTU'}")
 
     def _damaged(self, wire: Wire, broken: tuple[Wrong, ...], asked: Asked | None) -> Explanation:
         found = guesses(wire, self.dialect)
         meant = next((open_(guess.frame) for guess in found if guess.frame is not None), None)
-        check = Wrong(_checksum(wire), tuple(guess.says for guess in found) or _nothing_found(wire))
+        noise = (NOISE,) if wire.found else ()
+        check = Wrong(_checksum(wire), tuple(guess.says for guess in found) or noise)
         told = (check,) if wire.aligned and (wire.found or not broken) else ()
         told = (*told, *(Wrong("the frame cannot be read", (guess.says,)) for guess in found if not wire.aligned))
         read = meant or (wire if wire.aligned and self._plausible(wire) else None)
@@ -213,23 +217,10 @@ def _checksum(wire: Wire) -> str:
     return f"the {wire.name} does not fit: the frame has {shown(wire.found)}, and {shown(wire.expected)} would be right"
 
 
-def _nothing_found(wire: Wire) -> tuple[str, ...]:
-    if not wire.found:
-        return ()
-    return ("noise, a wrong bit rate or parity, or a typing error: none of the usual causes comes out",)
-
-
-def _other_mode(wire: Wire, asked: Asked | None) -> tuple[Wrong, ...]:
-    if asked is None or asked.ascii == (wire.mode == "ascii"):
-        return ()
-    return (Wrong(f"this is {wire.mode.upper()}, and the request was sent in {'ASCII' if asked.ascii else 'RTU'}"),)
-
-
-def _size(wire: Wire) -> tuple[Wrong, ...]:
+def _size(wire: Wire) -> Iterator[Wrong]:
     most, unit = (RTU_BYTES, "bytes") if wire.mode == "rtu" else (ASCII_CHARS, "characters")
-    if len(wire.frame) <= most:
-        return ()
-    return (Wrong(f"{len(wire.frame)} {unit} are too long for a frame: it has {most} at most"),)
+    if len(wire.frame) > most:
+        yield Wrong(f"{len(wire.frame)} {unit} are too long for a frame: it has {most} at most")
 
 
 def _echo_note(asked: Asked | None, sent: bytes | None, wire: Wire) -> tuple[str, ...]:

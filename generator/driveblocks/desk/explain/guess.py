@@ -1,5 +1,6 @@
 """What a frame with a wrong checksum might be instead: each guess is tried, and reported only if it works out."""
 
+from binascii import crc_hqx
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
@@ -112,21 +113,13 @@ _CCITT, _DNP = table(0x8408), table(0xA6BC)
 _OTHERS: tuple[tuple[str, Callable[[bytes], int]], ...] = (
     ("a CRC-16 that starts with 0000H instead of FFFFH", lambda data: crc16(data, 0)),
     ("a CRC-16 whose result is inverted", lambda data: crc16(data) ^ 0xFFFF),
-    ("the CRC of CCITT (polynomial 1021H, start FFFFH)", lambda data: _ccitt(data, 0xFFFF)),
-    ("the CRC of XMODEM (polynomial 1021H, start 0000H)", lambda data: _ccitt(data, 0)),
+    ("the CRC of CCITT (polynomial 1021H, start FFFFH)", lambda data: crc_hqx(data, 0xFFFF)),
+    ("the CRC of XMODEM (polynomial 1021H, start 0000H)", lambda data: crc_hqx(data, 0)),
     ("the CRC of KERMIT (polynomial 1021H mirrored)", lambda data: crc16(data, 0, _CCITT)),
     ("the CRC of X.25 (polynomial 1021H mirrored, inverted)", lambda data: crc16(data, 0xFFFF, _CCITT) ^ 0xFFFF),
     ("the CRC of DNP", lambda data: crc16(data, 0, _DNP) ^ 0xFFFF),
     ("the sum of the bytes", lambda data: sum(data) & 0xFFFF),
 )
-
-
-def _ccitt(data: bytes, crc: int) -> int:
-    for byte in data:
-        crc ^= byte << 8
-        for _ in range(8):
-            crc = (crc << 1 ^ 0x1021 if crc & 0x8000 else crc << 1) & 0xFFFF
-    return crc
 
 
 def _other_crc(wire: Wire, dialect: Dialect) -> Tries:

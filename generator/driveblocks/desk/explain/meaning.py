@@ -7,10 +7,9 @@ from decimal import Decimal
 from driveblocks.maps import view
 from driveblocks.maps.adu import number
 from driveblocks.maps.conduct import condition
-from driveblocks.maps.form import Span, address_text, bits_text
-from driveblocks.maps.model import Area, Bit, Command, Condition, Drive, Register, Step, Use, Value
-
-WORD = Span(0, 15)
+from driveblocks.maps.form import address_text, bits_text
+from driveblocks.maps.model import Area, Bit, Command, Drive, Register, Step, Use, Value
+from driveblocks.simulator.pattern import of_condition
 
 
 @dataclass(frozen=True)
@@ -120,16 +119,11 @@ def _row(drive: Drive, row: Register, address: int, word: int | None, writing: b
 
 def _lines(row: Register, word: int) -> Iterator[Line]:
     for bit in row.bits:
-        yield from _bit(bit, _bits(word, bit.bit))
+        yield from _bit(bit, word >> bit.bit.first & (1 << len(bit.bit)) - 1)
     for value in row.values:
         if word & value.value if row.masks else word == value.value & 0xFFFF:
             mark = f".{value.value.bit_length() - 1:X}" if row.masks else "="
             yield Line(mark, "", value.name, value.text_zh or "", 1 if row.masks else value.value)
-
-
-def _bits(word: int, span: Span) -> int:
-    """The number that some bits of a word make."""
-    return word >> span.first & (1 << len(span)) - 1
 
 
 def _bit(bit: Bit, found: int) -> Iterator[Line]:
@@ -225,12 +219,11 @@ def _notes(drive: Drive, row: Register, word: int, writing: bool) -> Iterator[st
         yield from _stores(drive, row)
     proofs = [one for one in drive.operation.standstill.all if one.register in row.address]
     if not writing and proofs:
-        met = all(_met(one, word) for one in proofs)
+        met = all(of_condition(one).holds(word) for one in proofs)
         yield "as at standstill" if met else "no standstill"
 
 
 def _stores(drive: Drive, row: Register) -> Iterator[str]:
-    """What a write to a register stores."""
     storage = drive.storage
     if storage.register is not None and storage.register in row.address:
         most = f", at most {storage.max_writes} times" if storage.max_writes else ""
@@ -241,12 +234,6 @@ def _stores(drive: Drive, row: Register) -> Iterator[str]:
     again = row.address.first + (storage.add or 0)
     if any(again in span for span in drive.ram_only):
         yield f"stored in EEPROM, which frequent writes wear out; {address_text(again)} is RAM only"
-
-
-def _met(condition: Condition, word: int) -> bool:
-    if condition.mask is not None:
-        return word & condition.mask == condition.equals
-    return _bits(word, condition.bit or WORD) == condition.equals
 
 
 def _masks(row: Register, word: int) -> Iterator[str]:

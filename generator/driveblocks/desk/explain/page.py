@@ -19,7 +19,6 @@ from driveblocks.show.layout import facts, own_head, table
 
 
 def pages(made: Explanation, drive: Drive | None) -> Iterator[RenderableType]:
-    """The whole explanation."""
     yield _verdict(made)
     yield Padding(facts(*_facts(made, drive)), (0, 0, 0, 2))
     for wrong in made.all_wrongs:

@@ -8,23 +8,14 @@ from dataclasses import dataclass
 from typing import Literal
 
 from driveblocks.desk.explain import characters, dump, hexadecimal
-from driveblocks.desk.explain.unreadable import Spot, UnreadableError
+from driveblocks.desk.explain.unreadable import Spot
+from driveblocks.maps.problem import Refused
 
 LONGEST = 1 << 16
 """Characters; an ASCII frame has 513, and a hexdump of some of them is still far below this."""
 
 _WIDE = {code: code - 0xFEE0 for code in range(0xFF01, 0xFF5F)}
-_LIKE: dict[int, str | int] = {
-    **_WIDE,
-    0x3000: " ",
-    0xA0: " ",
-    0x3001: ",",
-    0xFEFF: " ",
-    0x200B: " ",
-    0x201C: '"',
-    0x201D: '"',
-    0x2013: "-",
-}
+_LIKE = _WIDE | str.maketrans("\u3000\xa0\u3001\ufeff\u200b\u201c\u201d\u2013", '  ,  ""-')
 """Characters that mean an ASCII one, each for one, so that columns stay right."""
 
 _LABEL = re.compile(
@@ -52,11 +43,11 @@ class Paste:
 
 
 def read(text: str, name: str = "frame") -> Paste:
-    """Read a pasted frame; `name` is for messages. Raises UnreadableError with `name:line:column: wrong; right`."""
+    """Read a pasted frame; `name` is for messages. Raises Refused with `name:line:column: wrong; right`."""
     try:
         return _read(text.translate(_LIKE))
     except Spot as spot:
-        raise UnreadableError(spot.told(text, name)) from None
+        raise Refused(spot.told(text, name)) from None
 
 
 def _read(text: str) -> Paste:

@@ -13,7 +13,6 @@ Plain = dict[str, Any]
 
 
 def of_explanation(made: Explanation, drive: str | None) -> Plain:
-    """Everything that was found out about a frame."""
     return {
         "drive": drive,
         "good": made.good,

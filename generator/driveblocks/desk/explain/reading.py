@@ -65,7 +65,6 @@ class Reader:
     """Reads bodies with what a map says, or with the standard alone."""
 
     def __init__(self, drive: Drive | None, dialect: Dialect, *, ascii_mode: bool) -> None:
-        """Keep the drive, and whether its ASCII limits hold."""
         self.drive = drive
         self.dialect = dialect
         self.ascii_mode = ascii_mode
@@ -73,10 +72,11 @@ class Reader:
     def read(self, one: Layout, asked: Asked | None = None) -> Reading:
         """What a layout says; `asked` is the request that a reply answers."""
         wrongs = [*self._shape(one), *suspicion.wrongs(self.drive, one, ascii_mode=self.ascii_mode)]
+        parts = [each for each in one.parts if each.name != "refused function"]
         return Reading(
             one.direction,
             self._says(one),
-            tuple(self._field(one, part, asked) for part in one.parts if part.name != "refused function"),
+            tuple(Field(each.name, each.data, self._means(one, each, asked)) for each in parts),
             tuple(self._registers(one, asked)),
             tuple(Wrong(what, (instead,) if instead else ()) for what, instead in dict.fromkeys(wrongs)),
             tuple(self._notes(one, asked)),
@@ -126,9 +126,6 @@ class Reader:
         return f"{code:02X}H {both(found.name, found.own)}{likely}"
 
     # ------------------------------------------------------------ the fields
-
-    def _field(self, one: Layout, part: Part, asked: Asked | None) -> Field:
-        return Field(part.name, part.data, self._means(one, part, asked))
 
     def _means(self, one: Layout, part: Part, asked: Asked | None) -> str:
         meaning: dict[str, Callable[[], str]] = {

@@ -1,19 +1,12 @@
 """Text that is no frame in any spelling."""
 
 
-class UnreadableError(Exception):
-    """The input cannot be used; the text is `name:line:column: what is wrong; what would be right`."""
-
-
 class Spot(Exception):  # noqa: N818  (a place in a text, on its way to a message)
     """A place in a text that cannot be read; `at` counts characters from its start."""
 
     def __init__(self, at: int, wrong: str, right: str) -> None:
-        """Keep the place and both halves of the message."""
-        self.at = at
-        self.wrong = wrong
-        self.right = right
         super().__init__(wrong)
+        self.at, self.wrong, self.right = at, wrong, right
 
     def told(self, text: str, name: str) -> str:
         """The whole message, with line and column counted from 1."""

@@ -92,7 +92,6 @@ class Demo:
         return f"this did not come true: {left[0].says}" if left else ""
 
     def step(self, at_us: int) -> None:
-        """Play what is due."""
         if self._act is not None:
             self._look(self._act, at_us)
         if self._act is None and self._waiting:

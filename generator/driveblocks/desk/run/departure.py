@@ -15,25 +15,19 @@ class Departure:
     def __init__(self, within_s: float, aside_s: float = ASIDE_S) -> None:
         """Nothing is bounded before `begin`."""
         self._within_s, self._aside_s = within_s, aside_s
-        self._done = threading.Event()
-        self._printed = False
+        self.done = threading.Event()
+        """Set when all that could get stuck is done."""
+        self.printed = False
+        """Whether the verdict has been printed."""
 
     def begin(self, status: int, verdict: str) -> None:
         """From now on there is so much time, then this exit status."""
         threading.Thread(target=self._bound, args=(status, verdict), daemon=True).start()
 
-    def printed(self) -> None:
-        """The verdict has been printed."""
-        self._printed = True
-
-    def done(self) -> None:
-        """All that could get stuck is done."""
-        self._done.set()
-
     def _bound(self, status: int, verdict: str) -> None:
-        if self._done.wait(self._within_s):
+        if self.done.wait(self._within_s):
             return
-        if not self._printed:
+        if not self.printed:
             aside = threading.Thread(target=_say_aside, args=(verdict,), daemon=True)
             aside.start()
             aside.join(self._aside_s)

@@ -11,8 +11,8 @@ from decimal import Decimal
 from pathlib import Path
 
 from driveblocks.desk.run.controller import Controller
-from driveblocks.desk.words import Refused
 from driveblocks.maps.model import Drive
+from driveblocks.maps.problem import Refused
 from driveblocks.render.drive import MEASURES, drive_block
 from driveblocks.simulator.drive import SimulatedDrive
 from driveblocks.simulator.habits import Habits

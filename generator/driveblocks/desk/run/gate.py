@@ -23,7 +23,6 @@ class Gate:
     """A port that can be taken from the thread that uses it, and what was last spoken on its line."""
 
     def __init__(self, port: Port, clock: Clock) -> None:
-        """Open."""
         self.port = port
         self.late_ms = port.late_ms
         self.sent = b""
@@ -38,7 +37,6 @@ class Gate:
 
     @property
     def error(self) -> str:
-        """Why the port does not work; empty while it does."""
         return self.port.error
 
     def send(self, data: bytes) -> None:
@@ -58,7 +56,6 @@ class Gate:
             return data
 
     def close(self) -> None:
-        """Give the port back."""
         self.port.close()
 
     def check(self) -> None:

@@ -11,7 +11,6 @@ _WHY = {reason.code: reason.en for reason in REASONS}
 
 
 def look(controller: Controller, names: tuple[str, ...], at_us: int, port_error: str = "") -> View:
-    """Look at a program."""
     drives = tuple(_seen(controller, block.path) for block in controller.wiring.drives)
     shown = {name: controller.instance[name] for name in names}
     inputs = {name: controller.instance[name] for name in controller.wiring.inputs}

@@ -14,7 +14,6 @@ class Mailbox:
     """Hands received bytes to a program before its scan, and takes what it sends after it."""
 
     def __init__(self, instance: EmbeddedInstance, wiring: Wiring) -> None:
-        """For an instance of the program."""
         self._instance = instance
         self._wiring = wiring
         self._waiting: deque[int] = deque()

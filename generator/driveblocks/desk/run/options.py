@@ -9,8 +9,6 @@ from driveblocks.desk.words import LOOPBACK, NO_PORT, is_port
 
 @dataclass(frozen=True, kw_only=True)
 class Options:
-    """The words of the command line."""
-
     program: Path | None
     name: str | None = None
     maps: tuple[str, ...] = ()
@@ -33,7 +31,6 @@ class Options:
 
     @property
     def loopback(self) -> bool:
-        """Whether --tcp names this computer."""
         return self.tcp is not None and self.tcp.rpartition(":")[0] in LOOPBACK
 
     @property
@@ -43,7 +40,6 @@ class Options:
 
 
 def wrong(options: Options) -> Iterator[str]:
-    """What does not go together."""
     if (options.program is None) != options.demo:
         yield "--demo brings its own program; leave yours out" if options.demo else "name a program, or write --demo"
     ways = [

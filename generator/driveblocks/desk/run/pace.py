@@ -6,10 +6,7 @@ _STEPS = 100_000
 
 
 class Pace:
-    """Times that scans took."""
-
     def __init__(self, scan_us: int) -> None:
-        """For scans so far apart."""
         self.scan_us = scan_us
         self.scans = 0
         self.late = 0
@@ -46,7 +43,6 @@ class Pace:
         return 100.0 * (self.scans - self.late) / due if due else 100.0
 
     def __str__(self) -> str:
-        """In two lines."""
         took = {"median": self.share_us(50), "99 %": self.share_us(99), "worst": self.worst_us}
         times = ", ".join(f"{us / 1000:.2f} ms ({what})" for what, us in took.items())
         scan = f"{self.scan_us / 1000:g} ms"

@@ -3,11 +3,11 @@
 import threading
 from collections.abc import Sequence
 
+from driveblocks.desk.bus import Bus
 from driveblocks.desk.clock import VirtualClock
 from driveblocks.desk.port import WirePort
 from driveblocks.desk.run import source, wiring
 from driveblocks.desk.run.controller import Controller
-from driveblocks.desk.wire import Wire
 from driveblocks.maps.collection import Source as Map
 from driveblocks.maps.problem import Refused
 from structured_text.engines.engine import BuildError, ScanError
@@ -33,7 +33,7 @@ def controller(loaded: source.Loaded, scan_us: int) -> Controller:
 def probed(loaded: source.Loaded, scan_us: int, limit_us: int) -> Controller:
     """The program after one scan, which may take `limit_us`. Raises Refused."""
     probe = controller(loaded, scan_us)
-    probe.connect(WirePort(Wire([], 9600, 10), VirtualClock()), None)
+    probe.connect(WirePort(Bus([], 9600, 10), VirtualClock()), None)
     errors: list[ScanError] = []
 
     def scan() -> None:

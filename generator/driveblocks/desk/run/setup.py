@@ -51,8 +51,6 @@ RECORDED = ("Running", "Fault", "StopConfirmed", "OutputFrequencyHz")
 
 
 class Setup:
-    """A run that is ready."""
-
     def __init__(self, options: Options, keyboard: Keyboard) -> None:
         """Prepare everything but the port; `keyboard` is what a person types while it runs. Raises Refused."""
         if mistakes := list(mistakes_of(options)):
@@ -81,7 +79,6 @@ class Setup:
         self._records()
 
     def _limit(self) -> int:
-        """How long a scan may take."""
         if self._options.watchdog is None:
             return RECKONED_WATCHDOG_US if self._options.fast else LIMIT_US
         return time("--watchdog", self._options.watchdog, SHORTEST_WATCHDOG_US, LONGEST_WATCHDOG_US)
@@ -135,8 +132,8 @@ class Setup:
             drives = [one.made(ascii_mode=ascii_mode) for one in self._drives]
             if self._options.demo:
                 self._show(drives)
-            bus, begun = Bus(drives, rate, bits, ascii_mode=ascii_mode), self._clock.now_us()
-            self._acts(lambda happening: bus.happen(happening.act, self._clock.now_us() - begun))
+            bus = Bus(drives, rate, bits, ascii_mode=ascii_mode)
+            self._acts(lambda happening: bus.happen(happening.act, self._clock.now_us()))
             return WirePort(bus, self._clock)
         process = Simulation(self._drives, rate, bits, ascii_mode=ascii_mode)
         self._stack.callback(process.close)
@@ -164,7 +161,6 @@ class Setup:
 
     @property
     def label(self) -> str:
-        """Whose port it is."""
         return "REAL PORT" if self._options.real else "SIMULATED"
 
     def _made(self) -> Session:
@@ -216,7 +212,7 @@ class Setup:
         try:
             return self._run(free)
         finally:
-            self._departure.done()
+            self._departure.done.set()
 
     def _run(self, free: frozenset[tuple[int, str]]) -> int:
         suspend = self._session.ask_to_suspend if self._options.real else None
@@ -291,7 +287,7 @@ class Setup:
     def _report(self, result: Result) -> int:
         """Say how it went, first whether the drives are at standstill; the exit status."""
         _print(self._verdict(result))
-        self._departure.printed()
+        self._departure.printed = True
         dropped = sorted(self._session.controller.dropped.items())
         lines = [f"not sent {number} times: {what}" for what, number in dropped]
         if not self._options.fast:

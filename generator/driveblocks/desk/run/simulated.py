@@ -2,15 +2,15 @@
 
     python -P -m driveblocks.desk.run.simulated '{"drives": [...], "rate": 19200, "bits": 11, "ascii": false}'
 
-It prints the number of its port, serves one connection after the other, lets happen what its standard input says in
+It prints the number of its port, serves one master at a time, lets happen what its standard input says in
 lines, such as `trip OC 2`, and ends when that does. `-P`: no module of the folder where it is started takes part.
 """
 
 import json
 import os
+import queue
 import select
 import signal
-import socket
 import subprocess
 import sys
 import threading
@@ -22,12 +22,13 @@ from driveblocks.desk.bus import Bus
 from driveblocks.desk.clock import RealClock
 from driveblocks.desk.run.drives import Named
 from driveblocks.desk.scenario import Act, Happening, said
+from driveblocks.desk.simulate.link import TcpLink
 from driveblocks.maps.load import load
 from driveblocks.maps.model import Drive
 from structured_text.engines.embedded.certainty import present
 
-HOST = "127.0.0.1"
-LOOK_S = 0.001
+LOOK_S, IDLE_S = 0.001, 0.05
+Acts = queue.SimpleQueue[Act]
 
 
 class Simulation:
@@ -54,7 +55,6 @@ class Simulation:
         said.flush()
 
     def close(self) -> None:
-        """End it."""
         self._process.communicate()
 
 
@@ -72,73 +72,32 @@ def named(rows: Sequence[Sequence[Any]]) -> list[Named]:
 
 
 def main(words: str) -> None:
-    """Serve."""
     for name in ("SIGINT", "SIGHUP"):  # meant for the one who started this, who still has drives to stop
         if hasattr(signal, name):
             signal.signal(getattr(signal, name), signal.SIG_IGN)
     given = json.loads(words)
     units = named(given["drives"])
     drives = [one.made(ascii_mode=given["ascii"]) for one in units]
-    line = _Line(Bus(drives, given["rate"], given["bits"], ascii_mode=given["ascii"]), RealClock().now_us())
-    threading.Thread(target=_listen, args=(line, {one.unit: one.drive for one in units}), daemon=True).start()
-    with socket.create_server((HOST, 0)) as server:
-        print(server.getsockname()[1], flush=True)
-        while True:
-            connection, _ = server.accept()
-            with connection:
-                _serve(connection, line)
+    bus, now_us, acts = Bus(drives, given["rate"], given["bits"], ascii_mode=given["ascii"]), RealClock().now_us, Acts()
+    threading.Thread(target=_listen, args=(acts, {one.unit: one.drive for one in units}), daemon=True).start()
+    link = TcpLink(0)
+    print(link.place.rpartition(":")[2], flush=True)
+    while True:
+        select.select(link.sockets, [], [], LOOK_S if bus.speaking else IDLE_S)
+        while not acts.empty():
+            bus.happen(acts.get(), now_us())
+        if data := link.receive():
+            bus.send(data, now_us())
+        if bus.speaking and (heard := bus.receive(now_us())):
+            link.send(heard)
 
 
-class _Line:
-    """A bus that two threads use, in the time of the machine."""
-
-    def __init__(self, bus: Bus, begun_us: int) -> None:
-        self._bus, self._begun_us = bus, begun_us
-        self._lock = threading.Lock()
-
-    def _now_us(self) -> int:
-        return RealClock().now_us() - self._begun_us
-
-    @property
-    def speaking(self) -> bool:
-        return self._bus.speaking
-
-    def send(self, data: bytes) -> None:
-        with self._lock:
-            self._bus.send(data, self._now_us())
-
-    def receive(self) -> bytes:
-        with self._lock:
-            return self._bus.receive(self._now_us())
-
-    def happen(self, act: Act) -> None:
-        with self._lock:
-            self._bus.happen(act, self._now_us())
-
-
-def _serve(connection: socket.socket, line: _Line) -> None:
-    connection.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
-    try:
-        while True:
-            ready, _, _ = select.select([connection], [], [], LOOK_S if line.speaking else None)
-            if ready:
-                data = connection.recv(4096)
-                if not data:
-                    return
-                line.send(data)
-            heard = line.receive() if line.speaking else b""
-            if heard:
-                connection.sendall(heard)
-    except OSError:
-        return
-
-
-def _listen(line: _Line, drives: Mapping[int, Drive]) -> None:
+def _listen(acts: Acts, drives: Mapping[int, Drive]) -> None:
     """Let happen what is said; what ends later is said then."""
     for text in sys.stdin:
         for happening in said(text.strip(), drives):
             if not happening.at_us:
-                line.happen(happening.act)
+                acts.put(happening.act)
     os._exit(0)
 
 

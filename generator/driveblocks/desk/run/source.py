@@ -24,8 +24,6 @@ _PORTS = {one.prefix for one in PLATFORMS.values()} - {"MB"}
 
 @dataclass(frozen=True)
 class Loaded:
-    """A program that is ready to run."""
-
     library: EmbeddedLibrary
     program: Program
     drives: dict[str, Drive]

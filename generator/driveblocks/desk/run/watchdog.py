@@ -46,17 +46,14 @@ class Watchdog:
         """How long the next or present one may take."""
 
     def begin(self) -> None:
-        """A scan begins."""
         self._begun_us = self._now_us()
 
     def end(self) -> None:
-        """The scan has ended."""
         self._begun_us = None
         self.may_us = self.limit_us
 
     @property
     def scanning(self) -> bool:
-        """Whether a scan is under way."""
         return self._begun_us is not None
 
     def left_us(self) -> int:

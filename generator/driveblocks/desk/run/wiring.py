@@ -45,19 +45,19 @@ class Wiring:
 
     line: str
     """Instance of the line."""
-    port: str | None
-    """The MB_Port, of a line without mailbox."""
-    rx_count: str
-    rx_chars: str
-    tx_chars: str
     pins: dict[str, str | None]
     """Inputs of the line that the port fills: a variable, or the pin itself where the call omits it."""
-    restart: tuple[str, ...]
-    drives: tuple[DriveBlock, ...]
-    inputs: tuple[str, ...]
+    notes: tuple[Message, ...]
+    port: str | None = None
+    """The MB_Port, of a line without mailbox."""
+    rx_count: str = ""
+    rx_chars: str = ""
+    tx_chars: str = ""
+    restart: tuple[str, ...] = ()
+    drives: tuple[DriveBlock, ...] = ()
+    inputs: tuple[str, ...] = ()
     """What a person at the keyboard may set: the program's inputs, what else feeds its drives and its line, and the
     button that resets a VFD_HardStop."""
-    notes: tuple[Message, ...]
 
 
 @dataclass(frozen=True)
@@ -72,8 +72,6 @@ class _Frame:
 
 @dataclass(frozen=True)
 class _Call:
-    """A call of a block in a frame."""
-
     frame: _Frame
     call: tree.Call
     block: Block
@@ -134,18 +132,14 @@ def _port(line: _Call, written: set[str]) -> Wiring:
     if line.block.name.upper() in LINES:
         port = _needed(line, "PORT", set())
         pins |= {"PORTLATEMS": f"{port}.LateMs", "PORTERRORID": f"{port}.ErrorID"}
-        return Wiring(line.path, port, "", "", "", pins, (), (), (), tuple(notes))
+        return Wiring(line.path, pins, tuple(notes), port)
     return Wiring(
-        line=line.path,
-        port=None,
+        line.path,
+        pins,
+        tuple(notes),
         rx_count=_needed(line, "RXCOUNT", written),
         rx_chars=_needed(line, "RXCHARS", set()),
         tx_chars=_needed(line, "TXCHARS", set()),
-        pins=pins,
-        restart=(),
-        drives=(),
-        inputs=(),
-        notes=tuple(notes),
     )
 
 

@@ -3,37 +3,18 @@
 import os
 import socket
 from contextlib import suppress
-from typing import Protocol
 
-MOST = 4096
+from driveblocks.desk.port import MOST, Port
+from driveblocks.maps.problem import Refused
+
 HOST = "127.0.0.1"
 """Nobody else may take a simulator for a drive."""
-
-
-class Link(Protocol):
-    """Bytes to and fro, without ever waiting."""
-
-    @property
-    def error(self) -> str:
-        """Why it does not work; empty while it does."""
-
-    def send(self, data: bytes) -> None:
-        """Bytes to the master; lost where there is none."""
-
-    def receive(self) -> bytes:
-        """Bytes that have come."""
-
-    def close(self) -> None:
-        """Give it back."""
-
-
-class UnavailableError(Exception):
-    """This computer has no such thing; the text says what to use instead."""
 
 
 class TcpLink:
     """Serial bytes over TCP, for one master at a time."""
 
+    late_ms = 0
     error = ""
 
     def __init__(self, port: int) -> None:
@@ -43,8 +24,12 @@ class TcpLink:
         self._master: socket.socket | None = None
         self.place = f"{HOST}:{self._server.getsockname()[1]}"
 
+    @property
+    def sockets(self) -> list[socket.socket]:
+        """On which something may come."""
+        return [self._server, *([self._master] if self._master is not None else [])]
+
     def send(self, data: bytes) -> None:
-        """Bytes to the master."""
         if self._master is not None:
             try:
                 self._master.sendall(data)
@@ -52,7 +37,6 @@ class TcpLink:
                 self._drop()
 
     def receive(self) -> bytes:
-        """Bytes of the master."""
         self._accept()
         if self._master is None:
             return b""
@@ -67,7 +51,6 @@ class TcpLink:
         return data
 
     def close(self) -> None:
-        """Listen no more."""
         self._drop()
         self._server.close()
 
@@ -90,17 +73,18 @@ class TcpLink:
 class PtyLink:
     """A pseudo-terminal, whose other end a program opens as it would a serial port."""
 
+    late_ms = 0
     error = ""
 
     def __init__(self) -> None:
-        """Make one. Raises UnavailableError, OSError."""
+        """Make one. Raises Refused, OSError."""
         try:
             import tty
 
             made = os.openpty  # none on Windows
         except (ImportError, AttributeError):
             why = "--pty: this system has no pseudo-terminals"
-            raise UnavailableError(f"{why}; write --tcp {HOST}:5020, or --port with a null-modem pair") from None
+            raise Refused(f"{why}; write --tcp {HOST}:5020, or --port with a null-modem pair") from None
         self._own, self._other = made()
         tty.setraw(self._other)
         os.set_blocking(self._own, False)
@@ -112,44 +96,34 @@ class PtyLink:
             os.write(self._own, data)
 
     def receive(self) -> bytes:
-        """Bytes of the master."""
         try:
             return os.read(self._own, MOST)
         except OSError:
             return b""
 
     def close(self) -> None:
-        """The terminal closes."""
         for descriptor in (self._own, self._other):
             os.close(descriptor)
 
 
 class WithoutEcho:
-    """A link through an adapter that hears what it sends."""
+    """A port through an adapter that hears what it sends."""
 
-    def __init__(self, inner: Link) -> None:
-        """Around that one."""
-        self._inner = inner
-        self._own = b""
+    def __init__(self, inner: Port) -> None:
+        self._inner, self._own = inner, b""
+        self.late_ms, self.close = inner.late_ms, inner.close
 
     @property
     def error(self) -> str:
-        """As the adapter says."""
         return self._inner.error
 
     def send(self, data: bytes) -> None:
-        """Bytes whose echo will come."""
         self._own += data
         self._inner.send(data)
 
     def receive(self) -> bytes:
-        """Bytes that have come, without the echo."""
         data = self._inner.receive()
         same = next((at for at, (one, own) in enumerate(zip(data, self._own, strict=False)) if one != own), None)
         same = min(len(data), len(self._own)) if same is None else same
         self._own = self._own[same:] if same == len(data) else b""
         return data[same:]
-
-    def close(self) -> None:
-        """Give it back."""
-        self._inner.close()

@@ -6,7 +6,7 @@ A PLC could read from the simulator that a drive has stopped whose motor turns.
 from collections.abc import Callable, Mapping
 
 from driveblocks.desk.clock import Clock
-from driveblocks.desk.simulate.link import Link
+from driveblocks.desk.port import Port
 from driveblocks.maps.form import Span
 from driveblocks.maps.model import Drive
 from driveblocks.maps.plan import dialect, plan, read_request
@@ -26,8 +26,7 @@ LOOK_US = 2_000
 class Neighbours:
     """Listens to a line and asks on it."""
 
-    def __init__(self, link: Link, clock: Clock, drives: Mapping[int, Drive], *, ascii_mode: bool) -> None:
-        """For simulated drives at these units."""
+    def __init__(self, link: Port, clock: Clock, drives: Mapping[int, Drive], *, ascii_mode: bool) -> None:
         self._link, self._clock, self._drives = link, clock, drives
         self._mode = "ascii" if ascii_mode else "rtu"
         self.echo = False

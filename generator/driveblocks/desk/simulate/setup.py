@@ -7,21 +7,21 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from driveblocks import console
-from driveblocks.desk import port, scenario
+from driveblocks.desk import scenario
 from driveblocks.desk.bus import Bus, Frame
 from driveblocks.desk.clock import RealClock
 from driveblocks.desk.ending import Ending, listening
+from driveblocks.desk.port import Port, serial_port
 from driveblocks.desk.run.drives import named
 from driveblocks.desk.run.drives import words as drives_of
 from driveblocks.desk.screen import Heading, Lines, LiveTable, Screen
-from driveblocks.desk.simulate.link import HOST, Link, PtyLink, TcpLink, UnavailableError, WithoutEcho
+from driveblocks.desk.simulate.link import HOST, PtyLink, TcpLink, WithoutEcho
 from driveblocks.desk.simulate.neighbour import Neighbours
 from driveblocks.desk.simulate.stand import Stand, view
-from driveblocks.desk.words import LOOPBACK, NO_PORT, Refused, time
-from driveblocks.maps import catalog
-from driveblocks.maps.load import load
+from driveblocks.desk.words import LOOPBACK, NO_PORT, opening, time
+from driveblocks.maps.load import named as map_of
 from driveblocks.maps.model import Drive
-from driveblocks.maps.problem import MapError
+from driveblocks.maps.problem import Refused
 
 LABEL = "SIMULATED"
 TCP = 5020
@@ -33,8 +33,6 @@ Traced = Callable[[Mapping[int, Drive]], Callable[[Frame], Iterable[str]]]
 
 @dataclass(frozen=True, kw_only=True)
 class Words:
-    """The words of the command line."""
-
     drives: Sequence[str]
     port: str | None = None
     tcp: str | None = None
@@ -56,17 +54,13 @@ class Setup:
             raise Refused("\n".join(mistakes))
         self._for_us = None if words.length is None else time("--for", words.length, 1, 10**15)
         self._clock, self._ending = RealClock(), Ending()
-        try:
-            wanted = named(drives_of(words.drives), _map)
-            self.maps = {one.unit: one.drive for one in wanted}
-            happenings = scenario.read(words.scenario, self.maps) if words.scenario else []
-        except (catalog.UnknownDrive, MapError) as error:
-            raise Refused(str(error)) from None
+        wanted = named(drives_of(words.drives), map_of)
+        self.maps = {one.unit: one.drive for one in wanted}
+        self._happenings = scenario.read(words.scenario, self.maps) if words.scenario else []
         drives = [one.made(ascii_mode=words.ascii) for one in wanted]
         self._settings = [line for one in wanted for line in one.told()]
         bits = 1 + int(words.form[0]) + (words.form[1] != "N") + int(words.form[2])
         self._bus = Bus(drives, words.baud, bits, ascii_mode=words.ascii)
-        self._happenings = happenings
         self._lines = traced(self.maps) if traced is not None else None
 
     def _wrong(self) -> list[str]:
@@ -105,23 +99,16 @@ class Setup:
             self._looker(screen)(self._clock.now_us() - self._begun_us)
         console.write(*(f"{LABEL}  {line}" for line in (self._ending.reason, *self._summary())))
 
-    def _link(self) -> tuple[Link, str]:
+    def _link(self) -> tuple[Port, str]:
         words = self._words
-        try:
+        place = words.port or ("--pty" if words.pty else words.tcp or f"{HOST}:{TCP}")
+        with opening(place, "; name another place by --tcp, --pty or --port"):
             if words.port is not None:
-                return port.serial_port(words.port, words.baud, words.form, self._clock), words.port
-            if words.pty:
-                pty = PtyLink()
-                return pty, pty.place
-            tcp = TcpLink(int((words.tcp or f":{TCP}").rpartition(":")[2]))
-        except (UnavailableError, ImportError) as error:
-            raise Refused(str(error)) from None
-        except (OSError, ValueError) as error:
-            place = words.port or ("--pty" if words.pty else words.tcp or f"{HOST}:{TCP}")
-            raise Refused(f"{place}: {port.reason(error)}; name another place by --tcp, --pty or --port") from None
-        return tcp, tcp.place
+                return serial_port(words.port, words.baud, words.form, self._clock), words.port
+            link = PtyLink() if words.pty else TcpLink(int(place.rpartition(":")[2]))
+            return link, link.place
 
-    def _alone(self, link: Link) -> Link:
+    def _alone(self, link: Port) -> Port:
         """The real port, when no real unit is there. Raises Refused."""
         neighbours = Neighbours(link, self._clock, self.maps, ascii_mode=self._words.ascii)
         why = neighbours.found(lambda text: console.write(f"{LABEL} on REAL PORT {self._words.port}  {text}"))
@@ -168,9 +155,3 @@ class Setup:
             for unit, drive in self.maps.items()
         ]
         return [*lines, f"{loss.dropped} frames lost, {loss.damaged} damaged, {bus.strange} characters not understood"]
-
-
-def _map(name: str) -> tuple[Path, Drive]:
-    """A drive's map. Raises UnknownDrive, MapError."""
-    path = catalog.resolve(name)
-    return path, load(path)

@@ -5,9 +5,9 @@ from collections.abc import Callable, Mapping, Sequence
 from driveblocks.desk.bus import Bus
 from driveblocks.desk.clock import Clock
 from driveblocks.desk.ending import Ending
+from driveblocks.desk.port import Port
 from driveblocks.desk.scenario import Happening
 from driveblocks.desk.seen import Seen, View
-from driveblocks.desk.simulate.link import Link
 from driveblocks.maps.model import Drive
 from driveblocks.simulator.drive import SimulatedDrive
 
@@ -19,8 +19,7 @@ TICK_US = 1_000
 class Stand:
     """Drives on a bus, and a link to a master."""
 
-    def __init__(self, bus: Bus, link: Link, clock: Clock, ending: Ending, scenario: Sequence[Happening] = ()) -> None:
-        """Ready to run."""
+    def __init__(self, bus: Bus, link: Port, clock: Clock, ending: Ending, scenario: Sequence[Happening] = ()) -> None:
         self.bus, self.link = bus, link
         self._clock, self._ending = clock, ending
         self._waiting = list(scenario)

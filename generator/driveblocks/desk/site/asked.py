@@ -11,13 +11,13 @@ from driveblocks.desk.run.drives import named as drives_of
 from driveblocks.desk.run.drives import words as words_of
 from driveblocks.desk.run.watchdog import FIRST_US
 from driveblocks.desk.site.line import CHARACTER_BITS, LEARNED_AFTER, PINS, SLOT, Line, Unit, number
-from driveblocks.desk.words import Refused, time
+from driveblocks.desk.words import time
 from driveblocks.maps import catalog
 from driveblocks.maps.collection import Source
 from driveblocks.maps.model import Drive
 from driveblocks.maps.plan import reply_delay
 from driveblocks.maps.polls import Poll, polls
-from driveblocks.maps.problem import MapError
+from driveblocks.maps.problem import Refused
 from structured_text import files
 from structured_text.engines.embedded.library import EmbeddedInstance
 from structured_text.visible import file_name
@@ -32,8 +32,6 @@ _PARITY = {"none": "N", "even": "E", "odd": "O"}
 
 @dataclass(frozen=True, kw_only=True)
 class Words:
-    """The words of the command line."""
-
     line: tuple[str, ...]
     maps: tuple[str, ...] = ()
     name: str | None = None
@@ -125,7 +123,7 @@ def _program(words: Words, watchdog: int, wrong: list[str]) -> tuple[str, str, l
         if len(drives) + len(words.device) > MOST_UNITS:
             wrong.append(f"{len(drives) + len(words.device)} units; a line has 1 to {MOST_UNITS}")
         return "line.st", _text(words, drives, watchdog), maps
-    except (catalog.UnknownDrive, MapError, Refused, files.BadFile) as error:
+    except (Refused, files.BadFile) as error:
         wrong.append(str(error))
         return "", "", []
 

@@ -23,13 +23,13 @@ from driveblocks.desk.site.reader import LostError, One, Reader, StraysError, he
 from driveblocks.desk.site.register import Row, rows, unread, value
 from driveblocks.desk.site.saved import Saved, Word, read, write
 from driveblocks.desk.site.session import troubles
-from driveblocks.desk.words import Refused, time
+from driveblocks.desk.words import time
 from driveblocks.maps import catalog
 from driveblocks.maps.collection import read as maps_of
 from driveblocks.maps.form import address_text
 from driveblocks.maps.load import load
 from driveblocks.maps.model import Drive
-from driveblocks.maps.problem import MapError
+from driveblocks.maps.problem import MapError, Refused
 from driveblocks.maps.revision import revision
 from driveblocks.show.layout import table
 from structured_text.visible import file_name

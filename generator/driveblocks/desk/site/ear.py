@@ -1,13 +1,12 @@
 """Ports that only listen: they have nothing to send with. How a line is spoken on is found by what decodes."""
 
-import socket
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, Protocol
 
 from driveblocks.desk.clock import Clock
 from driveblocks.desk.frames import Cutter
-from driveblocks.desk.port import CONNECT_S, EXCLUSIVE, MOST, refusals, takes
+from driveblocks.desk.port import EXCLUSIVE, MOST, Socket, refusals, takes
 from driveblocks.desk.site.found import Way
 from driveblocks.desk.site.line import RATES
 from driveblocks.modbus.envelope import mode_of
@@ -50,7 +49,6 @@ class SerialEar:
         self._port.rts = self._port.dtr = False
 
     def tune(self, way: Way) -> bool:
-        """As `Ear` says."""
         return takes(lambda: self._set(way))
 
     def _set(self, way: Way) -> None:
@@ -62,11 +60,9 @@ class SerialEar:
                 port.open()
 
     def receive(self) -> bytes:
-        """As `Ear` says."""
         return bytes(self._port.read(MOST))
 
     def close(self) -> None:
-        """As `Ear` says."""
         self._port.close()
 
 
@@ -75,26 +71,11 @@ class TcpEar:
 
     def __init__(self, host: str, number: int) -> None:
         """Raises OSError."""
-        self._link = socket.create_connection((host, number), timeout=CONNECT_S)
-        self._link.setblocking(False)
+        link = Socket((host, number))
+        self.receive, self.close = link.read, link.close
 
     def tune(self, way: Way) -> bool:  # noqa: ARG002 - a server has its own
-        """As `Ear` says."""
         return True
-
-    def receive(self) -> bytes:
-        """As `Ear` says."""
-        try:
-            data = self._link.recv(MOST)
-        except (BlockingIOError, InterruptedError):
-            return b""
-        if not data:
-            raise OSError("the other side has closed the connection")
-        return data
-
-    def close(self) -> None:
-        """As `Ear` says."""
-        self._link.close()
 
 
 def ways(rate: int | None, form: str | None) -> list[Way]:
@@ -131,8 +112,6 @@ def find(
 
 @dataclass
 class _Tally:
-    """What came in one way."""
-
     frames: int = 0
     good: int = 0
     """Bytes of good frames."""

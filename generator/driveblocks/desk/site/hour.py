@@ -12,12 +12,12 @@ from driveblocks.desk.site import adapter, asked, kept, report, steps
 from driveblocks.desk.site.found import Asker, Found, Line
 from driveblocks.desk.site.line import figures
 from driveblocks.desk.site.session import SKIPPABLE, Wish, commission
-from driveblocks.desk.words import Refused
+from driveblocks.desk.words import opening
 from driveblocks.maps import catalog
 from driveblocks.maps.collection import read as maps_of
-from driveblocks.maps.load import load
+from driveblocks.maps.load import named
 from driveblocks.maps.model import Drive
-from driveblocks.maps.problem import MapError
+from driveblocks.maps.problem import MapError, Refused
 from driveblocks.maps.revision import revision
 
 Steps = Callable[[Line, Asker, Wish, Callable[[Found], None]], Found]
@@ -26,8 +26,6 @@ Steps = Callable[[Line, Asker, Wish, Callable[[Found], None]], Found]
 
 @dataclass(frozen=True, kw_only=True)
 class Words:
-    """The words of the command line."""
-
     map: str
     port: str | None = None
     tcp: str | None = None
@@ -42,7 +40,6 @@ class Words:
     replace: bool = False
 
     def wrong(self) -> Iterator[str]:
-        """What does not go together."""
         yield from adapter.wrong(self.port, self.tcp, self.rate, self.form, who="the drive")
         if self.unit is not None and not 1 <= self.unit <= 255:
             yield f"--unit {self.unit} is out of range; write 1 to 255"
@@ -81,9 +78,9 @@ def run(words: Words, read: Callable[[str], str], steps_at: Steps = commission) 
     """Go through the steps at a real port. Raises Refused."""
     wrong, stem, drive = list(words.wrong()), "", None
     try:
-        path = catalog.resolve(words.map)
-        stem, drive = path.stem, load(path)
-    except (catalog.UnknownDrive, MapError) as error:
+        path, drive = named(words.map)
+        stem = path.stem
+    except Refused as error:
         wrong.append(str(error))
     try:
         before = kept.read(words.file) if words.file.exists() else {}
@@ -107,13 +104,8 @@ def run(words: Words, read: Callable[[str], str], steps_at: Steps = commission) 
     line = adapter.PortLine(adapter.at(words.port, words.tcp, clock), clock)
     person = adapter.Person(read)
     try:
-        try:
-            able = line.tune(wish.ways()[0])
-        except ImportError as error:
-            raise Refused(f"--port needs pyserial, which does not run here: {error}") from None
-        except OSError as error:
-            raise Refused(f"{words.port or words.tcp}: {reason(error)}") from None
-        del able  # another way may be the port's
+        with opening(str(words.port or words.tcp)):
+            line.tune(wish.ways()[0])  # where it cannot, another way may be the port's
         found = steps_at(line, person, wish, shelf.keep)
     finally:
         line.close()

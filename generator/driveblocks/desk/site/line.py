@@ -26,8 +26,6 @@ FEEDS = 3
 
 @dataclass(frozen=True)
 class Unit:
-    """A drive or a device on a line."""
-
     name: str
     unit: int
     reads: tuple[Poll, ...]
@@ -153,7 +151,6 @@ class Figures:
 
     @property
     def ages(self) -> tuple[Aged, ...]:
-        """Of each unit."""
         return tuple(self._aged(each) for each in self.spent)
 
     @property

@@ -24,11 +24,10 @@ from driveblocks.desk.site import adapter, overheard
 from driveblocks.desk.site import ear as ears
 from driveblocks.desk.site.ear import Ear, SerialEar, TcpEar, find, ways
 from driveblocks.desk.site.found import Way
-from driveblocks.desk.words import Refused, time
-from driveblocks.maps import catalog
-from driveblocks.maps.load import load
+from driveblocks.desk.words import opening, time
+from driveblocks.maps.load import named
 from driveblocks.maps.model import Drive
-from driveblocks.maps.problem import MapError
+from driveblocks.maps.problem import Refused
 from driveblocks.modbus.envelope import mode_of
 from structured_text import files
 from structured_text.visible import file_name
@@ -40,8 +39,6 @@ LONGEST_US = 30 * 24 * 3600 * 1_000_000
 
 @dataclass(frozen=True, kw_only=True)
 class Words:
-    """The words of the command line."""
-
     maps: Sequence[str] = ()
     port: str | None = None
     tcp: str | None = None
@@ -58,7 +55,6 @@ class Words:
         return ways(rate, form) if self.port is not None else [Way(rate or 9600, form or "8N1")]
 
     def wrong(self) -> Iterator[str]:
-        """What does not go together."""
         yield from adapter.wrong(self.port, self.tcp, self.rate, self.form, who="the line")
         for option, path in (("--log", self.log), ("--csv", self.csv)):
             if path is not None and os.path.lexists(path):
@@ -84,9 +80,10 @@ def run(words: Words, clock: Clock | None = None) -> tuple[Way | None, Exchanges
     with ExitStack() as stack:
         ear = _opened(words)
         stack.callback(ear.close)
-        files = stack.enter_context(_files(words))
+        log, table = (_kept(path, stack) for path in (words.log, words.csv))
+        table.write(_row(overheard.COLUMNS))
         stack.enter_context(_hang_up())
-        session = Session(ear, clock, traffic, files)
+        session = Session(ear, clock, traffic, log, table)
         try:
             session.find(words.tried)
             session.listen(length_us)
@@ -97,7 +94,7 @@ def run(words: Words, clock: Clock | None = None) -> tuple[Way | None, Exchanges
         except OSError as error:
             session.ended = reason(error)
         session.end()
-    return session.way, traffic, session.ended, files.wrong
+    return session.way, traffic, session.ended, [each.wrong for each in (log, table) if each.wrong]
 
 
 def _drives(names: Sequence[str], wrong: list[str]) -> tuple[dict[int, Drive], Drive | None]:
@@ -107,8 +104,8 @@ def _drives(names: Sequence[str], wrong: list[str]) -> tuple[dict[int, Drive], D
     for word in names:
         name, at, unit = word.rpartition("@") if "@" in word else (word, "", "")
         try:
-            drive = load(catalog.resolve(name))
-        except (catalog.UnknownDrive, MapError) as error:
+            _, drive = named(name)
+        except Refused as error:
             wrong.append(str(error))
             continue
         if at and re.fullmatch("[0-9]{1,3}", unit) and 1 <= int(unit) <= 255 and int(unit) not in found:
@@ -123,80 +120,46 @@ def _drives(names: Sequence[str], wrong: list[str]) -> tuple[dict[int, Drive], D
 
 
 def _opened(words: Words) -> Ear:
-    try:
-        if words.port is not None:
-            ear: Ear = SerialEar(words.port)
-        else:
-            ear = TcpEar(*adapter.host_and_port(words.tcp))
+    with opening(str(words.port or words.tcp)):
+        ear: Ear = SerialEar(words.port) if words.port is not None else TcpEar(*adapter.host_and_port(words.tcp))
         ear.tune(words.tried[0])
-    except ImportError as error:
-        raise Refused(f"--port needs pyserial, which does not run here: {error}") from None
-    except OSError as error:
-        raise Refused(f"{words.port or words.tcp}: {reason(error)}") from None
     return ear
 
 
 class File:
-    """A new file of whole lines; `wrong`: why nothing more could be written."""
+    """A new file of whole lines, or none; `wrong`: why nothing more could be written."""
 
-    def __init__(self, path: Path) -> None:
+    def __init__(self, path: Path | None) -> None:
         """Raises OSError."""
-        self._name, self.wrong = file_name(path), ""
-        self._file = files.opened(path, new=True)
-        self.close = self._file.close
+        self._name, self.wrong = file_name(path or ""), ""
+        self.file = None if path is None else files.opened(path, new=True)
 
     def write(self, text: str) -> None:
         """A line, or nothing of it."""
-        whole = self._file.tell()
+        if self.file is None or self.wrong:
+            return
+        whole = self.file.tell()
         try:
-            if not self.wrong:
-                self._file.add(text.encode())
+            self.file.add(text.encode())
         except OSError as error:
             self.wrong = f"{self._name} is not complete: {reason(error)}"
             with suppress(OSError):
-                self._file.truncate(whole)
+                self.file.truncate(whole)
 
 
-@dataclass(frozen=True)
-class Files:
-    """What is kept while it is heard: whole lines only."""
-
-    log: File | None = None
-    csv: File | None = None
-
-    @property
-    def wrong(self) -> list[str]:
-        """Which of them are not complete, and why."""
-        return [each.wrong for each in (self.log, self.csv) if each is not None and each.wrong]
-
-    def write(self, text: str) -> None:
-        """A line of the log."""
-        if self.log is not None:
-            self.log.write(text)
-
-    def row(self, cells: Sequence[str]) -> None:
-        """A row of the CSV file."""
-        if self.csv is not None:
-            text = io.StringIO()
-            csv.writer(text, lineterminator="\n").writerow(cells)
-            self.csv.write(text.getvalue())
+def _kept(path: Path | None, stack: ExitStack) -> File:
+    """A new file, closed at the end. Raises Refused."""
+    with opening(str(path)):
+        made = File(path)
+    if made.file is not None:
+        stack.callback(made.file.close)
+    return made
 
 
-@contextmanager
-def _files(words: Words) -> Iterator[Files]:
-    """New files, closed at the end. Raises Refused."""
-    with ExitStack() as stack:
-        made = dict[str, File]()
-        for name, path in (("log", words.log), ("csv", words.csv)):
-            try:
-                if path is not None:
-                    made[name] = File(path)
-                    stack.callback(made[name].close)
-            except OSError as error:
-                raise Refused(f"{path}: {reason(error)}") from None
-        files = Files(**made)
-        files.row(overheard.COLUMNS)
-        yield files
+def _row(cells: Sequence[str]) -> str:
+    text = io.StringIO()
+    csv.writer(text, lineterminator="\n").writerow(cells)
+    return text.getvalue()
 
 
 @contextmanager
@@ -218,9 +181,8 @@ def _hang_up() -> Iterator[None]:
 class Session:
     """A line that is listened to, and what is shown and kept of it."""
 
-    def __init__(self, ear: Ear, clock: Clock, traffic: Exchanges, files: Files) -> None:
-        """At its beginning."""
-        self._ear, self._clock, self._files = ear, clock, files
+    def __init__(self, ear: Ear, clock: Clock, traffic: Exchanges, log: File, table: File) -> None:
+        self._ear, self._clock, self._log, self._table = ear, clock, log, table
         self.traffic = traffic
         self.way: Way | None = None
         self.came = 0
@@ -245,7 +207,7 @@ class Session:
                 self.way, self.came = find(self._ear, self._clock, tried, self.traffic.dialects, progress)
         if self.way is not None:
             self._cutter = Cutter(self.traffic.dialects, self.way.character_us)
-            self._files.write(f"# {self._now(self._clock.now_us())} {self.way.rate} bit/s {self.way.form}\n")
+            self._log.write(f"# {self._now(self._clock.now_us())} {self.way.rate} bit/s {self.way.form}\n")
 
     def listen(self, length_us: int | None) -> None:
         """Hear everything until it is over. Raises OSError for a port that has gone."""
@@ -262,19 +224,18 @@ class Session:
                     live.update(Group(*overheard.tables(self.way, self.traffic)), refresh=True)
 
     def hear(self, frames: Iterator[Frame]) -> None:
-        """Note what was said."""
         for frame in frames:
             said = self.traffic.hear(frame)
             if self.way is not None and frame.good:
                 self.way = replace(self.way, mode=mode_of(frame.data))
-            self._files.write(overheard.line(said, self._now(frame.begin_us)))
-            self._files.row(overheard.row(said, self.traffic.begin_us))
+            self._log.write(overheard.line(said, self._now(frame.begin_us)))
+            self._table.write(_row(overheard.row(said, self.traffic.begin_us)))
 
     def end(self) -> None:
         """The last frame, and the last line of the log: without it the log is that of a listening that was cut off."""
         rest = list(self._cutter.rest())
         self.hear(iter(rest if not rest or rest[-1].good else rest[:-1]))  # the last may only not be whole
-        self._files.write(f"# {self._now(self._clock.now_us())} ended{f': {self.ended}' if self.ended else ''}\n")
+        self._log.write(f"# {self._now(self._clock.now_us())} ended{f': {self.ended}' if self.ended else ''}\n")
 
     def _now(self, us: int) -> str:
         day, at = self._day

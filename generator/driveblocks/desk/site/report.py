@@ -35,7 +35,6 @@ def plain(tried: Sequence[Figures]) -> dict[str, Any]:
 
 
 def verdict(tried: Sequence[Figures]) -> str:
-    """The smallest rate that holds."""
     line, found = tried[0].line, next((each.rate for each in tried if not each.broken), None)
     asked = [f"all stops are sent within {line.within} ms"] if line.within else []
     if any(each.watchdog_ms for each in line.units):

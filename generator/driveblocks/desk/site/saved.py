@@ -8,9 +8,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from driveblocks.desk.site.register import rows, unread, value
-from driveblocks.desk.words import Refused
 from driveblocks.maps.form import SPACES, address_text
 from driveblocks.maps.model import Drive
+from driveblocks.maps.problem import Refused
 from driveblocks.maps.revision import revision
 from driveblocks.maps.table import few
 from structured_text import files
