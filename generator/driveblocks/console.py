@@ -29,15 +29,12 @@ class Shown:
     """A stream on which everything is visible; `stream` is the one beneath."""
 
     def __init__(self, stream: TextIO) -> None:
-        """Write to this stream."""
         self.stream = stream
 
     def write(self, text: str) -> int:
-        """Write a text."""
         return self.stream.write(visible(text))
 
     def writelines(self, lines: Iterable[str]) -> None:
-        """Write several texts."""
         for line in lines:
             self.write(line)
 

@@ -12,8 +12,6 @@ WIRED = {VarKind.INPUT: "input", VarKind.OUTPUT: "output", VarKind.IN_OUT: "in-o
 
 @dataclass(frozen=True)
 class Pin:
-    """A pin of a block or a field of a structure."""
-
     kind: str
     type: str
     default: str

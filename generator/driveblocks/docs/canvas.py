@@ -50,16 +50,13 @@ class Canvas:
     body: list[str] = field(default_factory=list)
 
     def text(self, x: float, y: float, words: str, kind: str = "", anchor: str = "start") -> None:
-        """A line of text; x is its start, middle or end."""
         attributes = (f' class="{kind}"' if kind else "") + (f' text-anchor="{anchor}"' if anchor != "start" else "")
         self.body.append(f'<text x="{x:g}" y="{y:g}"{attributes}>{escaped(words)}</text>')
 
     def box(self, x: float, y: float, width: float, height: float, kind: str = "box") -> None:
-        """A rectangle."""
         self.body.append(f'<rect class="{kind}" x="{x:g}" y="{y:g}" width="{width:g}" height="{height:g}" rx="4"/>')
 
     def path(self, points: list[tuple[float, float]], kind: str = "line") -> None:
-        """A line through points."""
         way = " ".join(f"{x:g},{y:g}" for x, y in points)
         self.body.append(f'<polyline class="{kind}" points="{way}"/>')
 
@@ -78,7 +75,6 @@ class Canvas:
         )
 
     def svg(self) -> str:
-        """The text of the file."""
         size = f'width="{self.width}" height="{self.height}" viewBox="0 0 {self.width} {self.height}"'
         page = f'<rect class="page" x="0.5" y="0.5" width="{self.width - 1}" height="{self.height - 1}" rx="6"/>'
         head = [f'<svg xmlns="http://www.w3.org/2000/svg" {size} role="img">', f"<title>{escaped(self.title)}</title>"]

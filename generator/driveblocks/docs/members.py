@@ -74,7 +74,6 @@ def _zero(said: str, unit: str) -> str:
 
 
 def _settings(drive: Drive) -> Iterator[tuple[str, str]]:
-    """What the map says of a setting."""
     block = drive_block(drive)
     word = address_text(block.ordering.reference)
     missing = f"required: the manual gives no scale of {word}"

@@ -268,7 +268,6 @@ def _page(drive: Drive, checked: Checked, values: Mapping[str, Any], own: Own, p
 
 
 def can(drive: Drive, does: str) -> bool:
-    """Whether a drive has a command."""
     return any(one.does == does for one in drive.operation.commands)
 
 

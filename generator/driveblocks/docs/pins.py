@@ -38,8 +38,6 @@ _IDLE = re.compile(r"not needed here|not needed: .*|always FALSE.*|the drive doe
 
 @dataclass(frozen=True)
 class Pin:
-    """One pin: what it is called, holds and means."""
-
     name: str
     type: str
     unit: str

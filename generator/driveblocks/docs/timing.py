@@ -48,7 +48,6 @@ STARTING = (
 
 
 def start_and_stop() -> tuple[Column, ...]:
-    """From power-up to a turning motor, and back to StopConfirmed."""
     seen = Column(0, ("stop",), running=True, at_speed=True, speed=(1.0, 0.8), event="stop")
     ramp = Column(0, ("stop",), running=True, speed=(0.8, 0.0))
     return (Column(0, ("stop",), event="power-up"), STOPPED, *STARTING, seen, ramp, STOPPED)
@@ -89,7 +88,6 @@ TALL = ROW * (len(SIGNALS) + 5)
 
 
 def picture(drive: Drive, name: str) -> str:
-    """Both stories, one below the other."""
     parts = [("Power-up, start and stop", start_and_stop()), ("A fault, and its reset", fault_and_reset(drive))]
     canvas = Canvas(f"{name}: start, stop and reset", WIDTH, TOP + len(parts) * (TALL + GAP) - 10)
     for number, (title, columns) in enumerate(parts):

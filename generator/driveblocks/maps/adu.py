@@ -15,7 +15,6 @@ class FrameError(Exception):
     """The bytes are no frame; the text says why, and `right` what a frame looks like."""
 
     def __init__(self, wrong: str, right: str) -> None:
-        """Keep both halves of the message."""
         self.right = right
         super().__init__(wrong)
 

@@ -58,7 +58,6 @@ def _word(key: str, text: str, at: Place) -> tuple[Scalar, Node]:
 
 
 def _documents(base: Entries, file: Path, sister: Drive) -> tuple[Scalar, Node]:
-    """The base's documents, and its manual among them."""
     at = base.at
     said = {"id": file.stem, "title": sister.manual.title.en, "publisher": sister.manual.publisher.en}
     said |= {"edition": sister.manual.edition} if sister.manual.edition else {}
@@ -68,7 +67,6 @@ def _documents(base: Entries, file: Path, sister: Drive) -> tuple[Scalar, Node]:
 
 
 def _rows(node: Entries) -> tuple[Node, ...]:
-    """The documents of a map."""
     listed = node.entries["documents"][1] if "documents" in node.entries else None
     return listed.items if isinstance(listed, Items) else ()
 

@@ -31,6 +31,5 @@ _PARTS = (
 
 
 def check(drive: Drive, report: Report) -> None:
-    """Note every rule that the map breaks, in every part of it."""
     for part in _PARTS:
         part.check(drive, report)

@@ -21,7 +21,6 @@ class Tally:
     """Entries of those lists."""
 
     def __add__(self, other: "Tally") -> "Tally":
-        """Both parts together."""
         return Tally(
             self.registers + other.registers,
             self.bits + other.bits,
@@ -47,12 +46,10 @@ class Counts:
 
     @property
     def total(self) -> Tally:
-        """All sections and the keypad settings together."""
         return sum(self.sections.values(), self.setting_values)
 
 
 def of_drive(drive: Drive) -> Counts:
-    """Count what a map holds."""
     return Counts(
         sections={section.id: of_section(section) for section in drive.sections},
         settings=len(drive.settings),
@@ -67,7 +64,6 @@ def of_drive(drive: Drive) -> Counts:
 
 
 def of_section(section: Section) -> Tally:
-    """Count what one register table holds."""
     return sum((_row(row) for row in section.registers if not row.unused), Tally())
 
 

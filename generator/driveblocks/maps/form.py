@@ -17,7 +17,6 @@ class Span:
     last: int
 
     def __iter__(self) -> Iterator[int]:
-        """Every number of the range."""
         return iter(range(self.first, self.last + 1))
 
     def __len__(self) -> int:
@@ -29,11 +28,9 @@ class Span:
         return self.first <= self.last
 
     def __contains__(self, number: object) -> bool:
-        """Whether a number lies in the range."""
         return isinstance(number, int) and self.first <= number <= self.last
 
     def overlaps(self, other: "Span") -> bool:
-        """Whether the ranges share a number."""
         return self.first <= other.last and other.first <= self.last
 
 

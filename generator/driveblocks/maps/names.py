@@ -28,7 +28,6 @@ def symbol(entry: Register | Bit | Value) -> str:
 
 
 def block(prefix: str, name: str) -> str:
-    """The name of a drive's block: `SN300G5_DriveStatus`."""
     return f"{prefix}_{name}"
 
 

@@ -11,7 +11,6 @@ REAL_BITS = 24
 
 
 def words(row: Register, value: int) -> tuple[int, int]:
-    """The words of a value in the order of their registers."""
     high, low = value >> 16 & 0xFFFF, value & 0xFFFF
     return (low, high) if row.order == "low_first" else (high, low)
 

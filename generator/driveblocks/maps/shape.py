@@ -19,8 +19,6 @@ class OneOf:
 
 @dataclass(frozen=True)
 class ListOf:
-    """A list of equal shapes."""
-
     item: "Shape"
 
 
@@ -36,8 +34,6 @@ Shape = Form | OneOf | ListOf | EntryOf
 
 @dataclass(frozen=True)
 class Key:
-    """One key of an entry."""
-
     name: str
     shape: Shape
     required: bool

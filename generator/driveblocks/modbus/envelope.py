@@ -33,12 +33,10 @@ class Wire:
 
     @property
     def right(self) -> bool:
-        """Whether the checksum fits."""
         return self.aligned and bool(self.body) and self.found == self.expected
 
     @property
     def name(self) -> str:
-        """What the checksum is called."""
         return "LRC" if self.mode == "ascii" else "CRC"
 
     def sealed(self, body: bytes) -> bytes:

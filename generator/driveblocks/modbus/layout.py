@@ -101,7 +101,6 @@ class Layout:
         return not (words and count % 2) and count > 0 and wanted in (None, count // 2 if words else count)
 
     def part(self, name: str) -> Part | None:
-        """A field by name."""
         return next((part for part in self.parts if part.name == name), None)
 
     def number(self, name: str) -> int | None:
@@ -117,7 +116,6 @@ class Layout:
 
     @property
     def words(self) -> tuple[int, ...]:
-        """The registers that the body carries."""
         if self.body[1] == 6 and not self.refusal:
             value = self.number("value")
             return () if value is None else (value,)

@@ -32,7 +32,6 @@ class Element:
 
 
 def element(tag: str, attributes: Mapping[str, str | None] | None = None, *content: Element | None) -> Element:
-    """An element without those attributes and parts that are None."""
     given = {name: value for name, value in (attributes or {}).items() if value is not None}
     return Element(tag, given, tuple(each for each in content if each is not None))
 

@@ -146,7 +146,6 @@ class _Drawing:
         return element("variable", {"formalParameter": name}, pin, remark)
 
     def remarks(self, call: tree.Call) -> dict[str | None, Element | None]:
-        """The comments after arguments, each on the line of its own."""
         unit, found = self.part.unit, dict[str | None, Element | None]()
         for comment in unit.comments:
             line = [
@@ -170,7 +169,6 @@ class _Drawing:
         return _pin("In", place, _link(number, here, there))
 
     def rail(self, here: Point) -> Element:
-        """A wire to the left rail."""
         self.starts.append(here[1])
         return _link(1, here, (_RAIL + 3, here[1]))
 
@@ -264,7 +262,6 @@ class _Drawing:
         self.variable(target, place, [_link(source, place, start, pin=pin)])
 
     def variable(self, target: str, place: Point, wires: list[Element]) -> None:
-        """Draw a variable, and what is wired to it."""
         where, text = _position(place[0], place[1] - 10), Element("expression", {}, text=target)
         width = 8 * len(target) + 20
         self.right = max(self.right, place[0] + width)
@@ -289,7 +286,6 @@ def _below(row: int) -> int:
 
 
 def is_bool(variable: VarDecl) -> bool:
-    """Whether a variable is a BOOL."""
     return isinstance(variable.spec, tree.NamedSpec) and variable.spec.name == "BOOL"
 
 

@@ -37,7 +37,6 @@ class Part:
 
     @cached_property
     def element(self) -> Declared:
-        """What it declares."""
         return next(each for each in self.unit.elements if isinstance(each, Declared))
 
     @property
@@ -47,7 +46,6 @@ class Part:
 
     @property
     def text(self) -> str:
-        """The canonical text."""
         return self.source or self.unit.text
 
     @property
@@ -98,12 +96,10 @@ class Volume:
 
     @property
     def types(self) -> tuple[Part, ...]:
-        """Its types."""
         return tuple(part for part in self.parts if isinstance(part.element, TypeDecl))
 
     @property
     def blocks(self) -> tuple[Part, ...]:
-        """Its functions and blocks."""
         return tuple(part for part in self.parts if not isinstance(part.element, TypeDecl))
 
 

@@ -30,8 +30,6 @@ def diagram(part: Part, blocks: Mapping[str, FunctionBlock]) -> Element:
 
 @dataclass
 class _Networks:
-    """Networks while they are written."""
-
     program: tree.Program
     known: Mapping[str, FunctionBlock]
     last: int = 0
@@ -49,7 +47,6 @@ class _Networks:
         yield element("rightPowerRail", {"localId": str(_RIGHT)}, _place(), element("connectionPointIn"))
 
     def put(self, tag: str, attributes: Mapping[str, str], *content: Element | None, number: int | None = None) -> int:
-        """Write an element; its number."""
         own = self.number() if number is None else number
         self.written.append(element(tag, {"localId": str(own), **attributes}, _place(), *content))
         return own

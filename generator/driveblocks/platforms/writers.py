@@ -16,7 +16,6 @@ A text is written in UTF-8 as it is: with the line ends and the byte order mark 
 
 
 def writer(platform: str) -> Writer:
-    """`write` of the platform's own `writer`."""
     made: Writer = import_module(f"driveblocks.platforms.{platform}.writer").write
     return made
 

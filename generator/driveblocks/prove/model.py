@@ -100,7 +100,6 @@ def _unset(subject: Subject) -> Store:
 
 
 def in_outs(pou: Pou) -> set[str]:
-    """The in-outs of a block."""
     return {name for name, each in pou.symbols.items() if each.kind is VarKind.IN_OUT}
 
 

@@ -14,7 +14,6 @@ NAME = "Rules_of_"
 
 
 def name(pou: Pou) -> str:
-    """The observer of a block."""
     return NAME + pou.name
 
 

@@ -26,7 +26,6 @@ sums: dict[tuple[str, int, int], tuple[Term, Term, Term]] = {}
 
 
 def free(of: z3.SortRef) -> Term:
-    """Any value."""
     return z3.FreshConst(of, FREE)
 
 
@@ -46,7 +45,6 @@ def inverse(term: Term) -> Term:
 
 
 def choice(condition: Term, then: Term, otherwise: Term) -> Term:
-    """The one or the other."""
     if z3.is_true(condition) or then.eq(otherwise):
         return then
     return otherwise if z3.is_false(condition) else z3.If(condition, then, otherwise)
@@ -59,7 +57,6 @@ def folded(term: Term) -> Term:
 
 
 def compare(op: str, left: Term, right: Term, kind: Elementary) -> Term:
-    """A comparison of two values of a type."""
     if op in ("=", "<>"):
         same = z3.fpEQ(left, right) if left.sort() == SINGLE else folded(left == right)
         return same if op == "=" else inverse(same)
@@ -140,7 +137,6 @@ def _divided(op: str, left: Term, right: Term, kind: Elementary, demand: Demand)
 
 
 def negated(term: Term, kind: Elementary, demand: Demand) -> Term:
-    """Minus."""
     if term.sort() == SINGLE:
         return z3.fpNeg(term)
     demand(f"the result of - is a {kind.name}", term != z3.BitVecVal(kind.low, kind.width))
@@ -167,7 +163,6 @@ def convert(term: Term, source: Type, result: Type) -> Term:
 
 
 def function(family: str, terms: list[Term], kinds: list[Elementary], result: Type, demand: Demand) -> Term:
-    """A standard function."""
     if family in ("MAX", "MIN", "LIMIT"):
         return _extreme(family, terms, kinds[-1])
     if family in ("SHL", "SHR"):

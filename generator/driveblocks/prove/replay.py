@@ -48,7 +48,6 @@ class Replay:
     """The blocks and their observers on the embedded engine."""
 
     def __init__(self, sources: Sequence[Source], models: Sequence[Model]) -> None:
-        """Build both. Raises BuildError."""
         texts = [
             Source(f"the rules of {each.pou.name}", observer.text(each.pou, each.checked, each.subject.conditions()))
             for each in models

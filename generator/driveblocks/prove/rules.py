@@ -56,12 +56,10 @@ class Subject:
 
 
 def shared() -> list[Subject]:
-    """The subjects that every drive shares."""
     return [_subject(name, found, {}) for name, found in _read().items() if "$" not in name]
 
 
 def family(facts: Mapping[str, str]) -> list[Subject]:
-    """The subjects of one family, with its facts put in for `$name`."""
     named = ((name, found) for name, found in _read().items() if "$" in name)
     return [_subject(Template(name).substitute(facts), found, facts) for name, found in named]
 

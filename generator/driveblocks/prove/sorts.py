@@ -30,7 +30,6 @@ class Leaf:
 
     @property
     def path(self) -> str:
-        """The name as paths have it."""
         return self.name.upper()
 
 
@@ -89,7 +88,6 @@ def initial(leaf: Leaf) -> z3.ExprRef:
 
 
 def _constant(value: Expression) -> bool | int | float:
-    """The value of a constant expression."""
     if isinstance(value, Literal) and isinstance(value.value, bool | int | float):
         return value.value
     if isinstance(value, Name) and isinstance(value.symbol, VarDecl) and value.symbol.start is not None:

@@ -69,7 +69,6 @@ class Frame:
     in_outs: dict[str, str]
 
     def path(self, symbol: VarDecl) -> str:
-        """Where a variable is."""
         name = symbol.name.upper()
         return self.in_outs[name] if symbol.kind is VarKind.IN_OUT else self.prefix + name
 
@@ -105,12 +104,10 @@ class Terms:
     # ------------------------------------------------------------ statements
 
     def statements(self, body: Sequence[Statement]) -> None:
-        """Run statements one after the other."""
         for each in body:
             self.statement(each)
 
     def statement(self, each: Statement) -> None:
-        """Run one statement."""
         self.at = each.at
         if isinstance(each, Assign) and each.op == ":=":
             self._assign(each)

@@ -10,8 +10,6 @@ MOTIONS = ("run_forward", "run_reverse", "jog_forward", "jog_reverse")
 
 @dataclass(frozen=True, kw_only=True)
 class Pins:
-    """The inputs of the command block."""
-
     enable: bool = True
     stop: bool = False
     quick_stop: bool = False
@@ -28,13 +26,11 @@ class Pins:
 
     @property
     def stops(self) -> frozenset[str]:
-        """What asks for a stop."""
         asked = {name for name in ("stop", "quick_stop", "coast_stop") if getattr(self, name)}
         return frozenset(asked | ({"disable"} if not self.enable else set()))
 
     @property
     def contrary(self) -> bool:
-        """Whether both directions are asked."""
         return (self.run_forward or self.jog_forward) and (self.run_reverse or self.jog_reverse)
 
     @property
@@ -45,8 +41,6 @@ class Pins:
 
 @dataclass(frozen=True)
 class Told:
-    """What the block puts out."""
-
     address: int
     value: int
     result: str = "OK"
@@ -78,7 +72,6 @@ class Commands:
 
     @property
     def resets(self) -> bool:
-        """Whether the drive has a fault reset."""
         return "fault_reset" in self.known
 
     def step(self, pins: Pins) -> Told:

@@ -78,7 +78,6 @@ class Judge:
     """Says of every request to write a register of a drive which result it has."""
 
     def __init__(self, drive: Drive) -> None:
-        """Look up once what the map has at each address."""
         operation = drive.operation
         steps = (step.register for command in operation.commands for step in command.first)
         commands = (command.register for command in operation.commands)

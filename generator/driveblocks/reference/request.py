@@ -60,10 +60,7 @@ def _words(words: tuple[int, ...]) -> bytes:
 
 
 class Requests:
-    """The request block of one drive."""
-
     def __init__(self, drive: Drive) -> None:
-        """Take from the map what it allows."""
         self.drive = drive
         inputs = any(row.address.first >= INPUTS for _, row in drive.registers())
         self.functions = {one.code: one for one in drive.functions if not (inputs and one.code == READ_INPUTS)}

@@ -47,8 +47,6 @@ class Encoded:
 
 
 class SpeedReference:
-    """The reference block of one drive."""
-
     def __init__(self, drive: Drive) -> None:
         """Take from the map what the reference register counts. Raises ValueError if the map does not list it."""
         self.spec = drive.operation.reference
@@ -66,7 +64,6 @@ class SpeedReference:
 
     @property
     def address(self) -> int:
-        """The reference register."""
         return self.spec.register
 
     def encode(

@@ -10,7 +10,6 @@ WORD = Span(0, 15)
 
 
 def holds(condition: Condition, word: int) -> bool:
-    """Whether a word fulfils a condition."""
     if condition.mask is not None:
         return all(word >> bit & 1 == condition.equals >> bit & 1 for bit in WORD if condition.mask >> bit & 1)
     return number(word, condition.bit or WORD) == condition.equals

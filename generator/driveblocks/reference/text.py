@@ -28,7 +28,6 @@ def of(entry: Returned | Bit) -> Texts:
 
 
 def fault(drive: Drive, code: int) -> Texts | None:
-    """The text of a fault code, after the drive's own name for it."""
     return _displayed(drive.faults.codes, code)
 
 
@@ -45,7 +44,6 @@ def _displayed(codes: Iterable[Fault], code: int) -> Texts | None:
 
 
 def error(drive: Drive, code: int) -> Texts | None:
-    """The text of a reason for refusal."""
     return _first(of(one) for one in drive.errors.codes if error_number(one) == code)
 
 
@@ -65,7 +63,6 @@ def bit(drive: Drive, address: int, number: int) -> Texts | None:
 
 
 def value(drive: Drive, address: int, number: int) -> Texts | None:
-    """The text of a value of a word."""
     row = drive.register_at(address)
     if row is None or row.address.first != address:
         return None

@@ -31,7 +31,6 @@ def pages(drive: Drive, chosen: list[Match], others: list[Match]) -> Iterator[Re
 
 
 def page(drive: Drive, match: Match) -> Iterator[RenderableType]:
-    """The page of one entry."""
     entry = match.entry
     if isinstance(entry, Register | Bit):
         yield from _register(drive, match)

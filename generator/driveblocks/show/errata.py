@@ -9,7 +9,6 @@ from driveblocks.show.layout import both, card, heading, listed, own_head
 
 
 def errata(drive: Drive) -> Iterator[RenderableType]:
-    """Every misprint and contradiction, in the order of the map."""
     yield heading(f"Misprints and contradictions of the manual: {len(drive.errata)}")
     for number, erratum in enumerate(drive.errata, 1):
         yield of_erratum(drive, erratum, f"{number}. ")
@@ -47,7 +46,6 @@ def of_absence(drive: Drive, absence: Absence, number: str = "") -> RenderableTy
 
 
 def notices(drive: Drive) -> Iterator[RenderableType]:
-    """Prohibitions, warnings, hazards and procedures."""
     yield heading(f"Prohibitions, warnings, hazards and procedures of the manual: {len(drive.notices)}")
     for notice in drive.notices:
         yield of_notice(notice)

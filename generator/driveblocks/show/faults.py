@@ -12,7 +12,6 @@ from driveblocks.show.layout import OWN, both, card, code_text, facts, heading, 
 
 
 def faults(drive: Drive) -> Iterator[RenderableType]:
-    """The registers that report faults, and every fault code."""
     known = drive.faults
     yield heading(f"Fault codes: {len(known.codes)}")
     relation = known.bits and (
@@ -94,7 +93,6 @@ def _form(drive: Drive) -> str:
 
 
 def of_error(drive: Drive, error: ErrorCode) -> RenderableType:
-    """One reason for a refusal."""
     code = "no code" if error.code is None else code_text(error.code)
     causes = [f"- {both(cause.en, cause.own)}" for cause in error.causes]
     meaning = error.meaning

@@ -12,7 +12,6 @@ from driveblocks.show.layout import card, code_text, heading, listed
 
 
 def frames(drive: Drive) -> Iterator[RenderableType]:
-    """Every example frame, in the manual's order."""
     wrong = sum(frame.checksum == "wrong" for frame in drive.frames)
     yield heading(f"Example frames: {len(drive.frames)}, {wrong} of them with a wrong checksum")
     if not drive.frames:
@@ -22,7 +21,6 @@ def frames(drive: Drive) -> Iterator[RenderableType]:
 
 
 def of_frame(frame: Frame) -> RenderableType:
-    """One frame."""
     return card(
         f"{frame.id}  ({frame.mode.upper()} {frame.direction})",
         ("says", frame.means.says),

@@ -77,7 +77,6 @@ def choices(rows: Iterable[tuple[str, ...]]) -> Table | None:
 
 
 def heading(text: str) -> Text:
-    """The title of a part."""
     return Text(f"\n{text}", style="bold underline")
 
 
@@ -87,7 +86,6 @@ def both(en: str | None, zh: str | None) -> str:
 
 
 def listed(items: Iterable[object]) -> str:
-    """Several things in one line."""
     return ", ".join(map(str, items))
 
 

@@ -22,14 +22,12 @@ _LIMITS = {
 
 
 def serial(drive: Drive) -> Iterator[RenderableType]:
-    """Everything about the line, with what is recorded about it."""
     yield from line(drive)
     yield from settings(drive)
     yield from recorded(drive, "serial", "")
 
 
 def line(drive: Drive) -> Iterator[RenderableType]:
-    """The line with all its codes, then the limits and the functions."""
     known = drive.serial
     yield heading("Serial line")
     yield facts(
@@ -113,7 +111,6 @@ def limits(known: Limits) -> RenderableType:
 
 
 def of_function(function: Function) -> RenderableType:
-    """A Modbus function with its sub-functions."""
     subs = [(f"  {sub.code:04X}H", both(sub.name, sub.own)) for sub in function.sub_functions]
     unsent = "" if function.sent else "; no block sends it"
     text = f"{both(function.name, function.own)}{unsent}  ({function.source})"
@@ -130,7 +127,6 @@ def tolerances(drive: Drive) -> Iterator[RenderableType]:
 
 
 def settings(drive: Drive) -> Iterator[RenderableType]:
-    """Every keypad setting for communication."""
     needed = sum(setting.needed is not None for setting in drive.settings)
     yield heading(f"Keypad settings: {len(drive.settings)}, of which the drive needs {needed} before it listens")
     for setting in drive.settings:
@@ -138,7 +134,6 @@ def settings(drive: Drive) -> Iterator[RenderableType]:
 
 
 def of_setting(drive: Drive, setting: Setting) -> RenderableType:
-    """One keypad setting."""
     values = [(str(value.value), value.name, value.own, value.note or "") for value in setting.values]
     return card(
         f"{setting.id}  {both(setting.name, setting.own)}",

@@ -30,7 +30,6 @@ def tables(drive: Drive) -> Iterator[RenderableType]:
 
 
 def section(drive: Drive, one: Section) -> Iterator[RenderableType]:
-    """One section."""
     yield LEGEND
     yield from _section(one, _Marks(drive))
 

@@ -19,7 +19,6 @@ class Refused(Exception):  # noqa: N818  (a refusal is an answer, no error of th
     """Why a request is refused: one of `refusal.REASONS`."""
 
     def __init__(self, reason: str) -> None:
-        """Keep the reason."""
         self.reason = reason
         super().__init__(reason)
 

@@ -96,7 +96,6 @@ class Machine:
         return self.memory.stores
 
     def word(self, address: int) -> int:
-        """What a register shows."""
         if address == self.table.warned:
             mask, code = self.table.warning
             return self._word(address) & ~mask | code * self.warning
@@ -180,7 +179,6 @@ class Machine:
     # ------------------------------------------------------------ time
 
     def step(self, ms: int) -> None:
-        """Let time pass."""
         self.now += ms
         habits = self.habits
         self.motor.step(ms, self._goal(), habits.quick_ramp if self._quick else habits.ramp, habits.coast_ramp)
@@ -219,7 +217,6 @@ class Machine:
         return -milli if number < 0 and given.reverses else milli
 
     def _lost(self) -> None:
-        """The watchdog."""
         if self.habits.watchdog == "trip":
             self.trip(self.habits.watchdog_code)
             self.cause = False

@@ -22,7 +22,6 @@ class Memory:
         self.changed: dict[int, int] = {}
 
     def __getitem__(self, address: int) -> int:
-        """The word at an address."""
         return self.words.get(self.home(address), 0)
 
     def home(self, address: int) -> int:
@@ -31,7 +30,6 @@ class Memory:
         return plain if self.storage.add and inside(self.storage.areas, plain) else address
 
     def parameter(self, address: int) -> bool:
-        """Whether an address is a parameter's."""
         return inside(self.storage.areas, self.home(address))
 
     def write(self, address: int, word: int, now: int) -> bool:

@@ -17,7 +17,6 @@ class Motor:
             self.output, self.driven = self.shaft, True
 
     def release(self) -> None:
-        """The drive lets go."""
         self.output, self.driven = 0, False
 
     def step(self, ms: int, goal: int, ramp: int, coast: int) -> None:

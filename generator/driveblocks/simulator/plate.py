@@ -9,7 +9,6 @@ from driveblocks.simulator.pattern import WORD, Pattern, of_condition
 
 
 def plate(drive: Drive, habits: Habits) -> dict[int, int]:
-    """Words by register."""
     words: dict[int, int] = {}
     conditions = [
         *(drive.identity.all if drive.identity else ()),

@@ -43,8 +43,6 @@ class Gauge:
 
 @dataclass(frozen=True)
 class Limit:
-    """Allowed words of a register."""
-
     register: int
     low: int
     high: int

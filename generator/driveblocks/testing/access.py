@@ -15,7 +15,6 @@ END = 0xFFFF
 
 
 def scripts(drive: Drive, stem: str) -> Iterator[Script]:
-    """One program."""
     program = bench.script(drive, stem, "Access", "which registers may be read and written, each range from both sides")
     sources = Sources(drive)
     for name, verb, allowed in (("CanRead", "read", readable(drive)), ("CanWrite", "written", writable(drive))):

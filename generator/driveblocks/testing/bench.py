@@ -21,7 +21,6 @@ _ARRAYS = {
 
 
 def script(drive: Drive, stem: str, subject: str, title: str, source: str = "") -> Script:
-    """A program that tests one subject of a drive."""
     printed = drive.manual.title
     manual = f"{printed.en} ({printed.own})" if printed.own else printed.en
     return Script(stem, f"{drive.prefix}_Test{subject}", title, f"{manual}: {source}." if source else f"{manual}.")
@@ -41,7 +40,6 @@ def declare(program: Script, *names: str, **blocks: str) -> None:
 
 
 def fill(box: str, data: bytes) -> list[str]:
-    """Statements that put bytes into Adu or Chars."""
     return [f"{box}[{index}] := {byte(octet)};" for index, octet in enumerate(data)]
 
 
@@ -52,7 +50,6 @@ def changed(box: str, usual: bytes, data: bytes) -> list[str]:
 
 
 def fill_words(box: str, words: list[int] | tuple[int, ...]) -> list[str]:
-    """Statements that put words into Words or Registers."""
     return [f"{box}[{index}] := {word(value)};" for index, value in enumerate(words)]
 
 
@@ -90,7 +87,6 @@ def declare_ramp(program: Script) -> None:
 
 
 def cleared(box: str, length: int) -> list[str]:
-    """Statements that put zeros into an array."""
     step = f"{box}[Index] := BYTE#16#00; Index := Index + 1;"
     return ["Index := 0;", f"WHILE Index < {max(length, 1)} DO {step} END_WHILE;"]
 
@@ -110,12 +106,10 @@ def same_words(box: str, words: list[int] | tuple[int, ...], what: str = "word")
 
 
 def is_word(actual: str, expected: str, words: str) -> Probe:
-    """A check of a WORD."""
     return Probe("Word", f"Expected := {expected}, Actual := {actual}", words)
 
 
 def is_number(actual: str, expected: int | str, words: str) -> Probe:
-    """A check of a UINT."""
     return Probe("Number", f"Expected := {expected}, Actual := {actual}", words)
 
 
@@ -125,7 +119,6 @@ def is_between(actual: str, lowest: str, highest: str, words: str) -> Probe:
 
 
 def is_flag(actual: str, expected: bool | str, words: str) -> Probe:
-    """A check of a BOOL."""
     value = expected if isinstance(expected, str) else flag(expected)
     return Probe("Flag", f"Expected := {value}, Actual := {actual}", words)
 
@@ -137,7 +130,6 @@ def is_real(actual: str, expected: float, words: str) -> Probe:
 
 
 def is_text(actual: str, expected: bytes, words: str) -> Probe:
-    """A check of a STRING."""
     return Probe("Text", f"Expected := {string(expected)}, Actual := {actual}", words)
 
 

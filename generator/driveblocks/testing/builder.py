@@ -33,7 +33,6 @@ class Case:
 
 
 def scripts() -> Iterator[Script]:
-    """One program per builder."""
     yield _program("BuildRead", "requests of functions 03H and 04H", "6.3 and 6.4", "MB_BuildRead", _reads())
     yield _program("BuildSingle", "requests of function 06H", "6.6", "MB_BuildWriteSingle", _singles())
     yield _program("BuildDiagnose", "requests of function 08H", "6.8", "MB_BuildDiagnostics", _diagnostics())
@@ -56,7 +55,6 @@ def _program(subject: str, title: str, section: str, block: str, cases: Iterable
 
 
 def _pins(asked: Asked, most: int | None) -> str:
-    """The inputs of the builder of a function."""
     given = [f"UnitAddress := {asked.unit}"]
     if asked.function not in (6, 8, 16):
         given.append(f"FunctionCode := {asked.function}")

@@ -11,7 +11,6 @@ LINE = "MODBUS over Serial Line V1.02"
 
 
 def scripts() -> Iterator[Script]:
-    """One program for the checksums, one for the digits."""
     yield _checksums()
     yield _digits()
 

@@ -23,8 +23,6 @@ _TWIN = re.compile(r"(MB_\w+?)32\.st")
 
 @runtime_checkable
 class Counted(Protocol):
-    """A library that was built with counters."""
-
     def coverage(self) -> Lines:
         """How often each line with a statement has run; empty without counters."""
 
@@ -70,7 +68,6 @@ class Miss:
     why: str = ""
 
     def __str__(self) -> str:
-        """Print as compilers do."""
         place = f"{self.path}:{self.line}:{self.column}" if self.column else f"{self.path}:{self.line}"
         return f"{place}: {self.text}{f'; explained: {self.why}' if self.why else ''}"
 
@@ -156,7 +153,6 @@ class Figures:
         return sum(bool(each.why) for each in (*self.missed_lines, *self.missed_branches))
 
     def __str__(self) -> str:
-        """Print how much has run."""
         explained = f" ({self.explained} explained)" if self.explained else ""
         return f"lines {self.lines_run}, branches {self.branches_run}{explained}"
 

@@ -51,8 +51,6 @@ def lost(program: Program, setting: Setting, why: str) -> Result:
 
 
 class _Run:
-    """A run under way."""
-
     def __init__(self, program: Program, setting: Setting, deadline: float) -> None:
         self.program, self.path = program, setting.root + program.path
         self.deadline, self.seconds = deadline, setting.seconds
@@ -173,7 +171,6 @@ def _real(value: float) -> str:
 
 
 def _single(value: float) -> float:
-    """The nearest REAL."""
     found: float = struct.unpack("f", struct.pack("f", value))[0]
     return found
 

@@ -14,7 +14,6 @@ BODY = bytes.fromhex("01 06 10 00 00 01")
 
 
 def scripts() -> Iterator[Script]:
-    """One program per block."""
     yield from (_seal(), _open(), _encode(), _decode())
 
 

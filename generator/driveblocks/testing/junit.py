@@ -30,7 +30,6 @@ def text(run: Run) -> str:
 
 
 def _cases(result: Result) -> list[list[Outcome]]:
-    """The checks of each case."""
     cases: dict[str, list[Outcome]] = {}
     for number, outcome in enumerate(result.outcomes):
         cases.setdefault(outcome.scene or str(number), []).append(outcome)

@@ -11,7 +11,6 @@ UNITS = {
 
 
 def register_block(drive: Drive, row: Register) -> str:
-    """The decoder of a register."""
     return f"{drive.prefix}_{name_of(row)}"
 
 

@@ -22,7 +22,6 @@ class Outcome:
 
     @property
     def place(self) -> str:
-        """File and line of the check."""
         return f"{self.path}:{self.line}" if self.line else self.path
 
 
@@ -43,7 +42,6 @@ class Result:
 
     @property
     def scenes(self) -> tuple[str, ...]:
-        """The scenes that it played."""
         return tuple(dict.fromkeys(outcome.scene for outcome in self.outcomes if outcome.scene))
 
     def count(self, status: str) -> int:
@@ -52,12 +50,10 @@ class Result:
 
     @property
     def passed(self) -> bool:
-        """Whether there were checks, and all passed."""
         return bool(self.outcomes) and self.count(PASSED) == len(self.outcomes)
 
     @property
     def bad(self) -> list[Outcome]:
-        """The checks that did not pass."""
         return [outcome for outcome in self.outcomes if outcome.status != PASSED]
 
 

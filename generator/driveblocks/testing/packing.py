@@ -15,7 +15,6 @@ STALE = 0xDEAD
 
 
 def scripts() -> Iterator[Script]:
-    """One program per array."""
     for box, most in BOXES.items():
         yield _packing(box, most)
 

@@ -29,7 +29,6 @@ with what writes them.
 
 
 def page(tables: Iterable[str]) -> str:
-    """The page's text, from the tables of the suites."""
     return _HEAD + "".join(tables)
 
 

@@ -58,7 +58,6 @@ def _decoder(drive: Drive, stem: str, section: Section, row: Register) -> Script
 
 
 def _packed(found: dict[str, bool | int], names: list[str]) -> int:
-    """Outputs as the bits of a number, the first one in bit 0."""
     return sum(1 << place for place, name in enumerate(names) if found[name])
 
 

@@ -48,7 +48,6 @@ class Subject:
 
 
 def scripts(drive: Drive, stem: str) -> Iterator[Script]:
-    """One program per function of the drive."""
     call = "Parse(Length := Length, Adu := Adu, Request := Request, Words := Words);"
     codes = tuple(dict.fromkeys(code.code for code in drive.errors.codes if code.code is not None))
     subject = Subject(call, dialect(drive), codes)
@@ -81,7 +80,6 @@ def asked(function: int, address: int = 0x2100, sub_function: int = 0, quantity:
 
 
 def fill(program: Script, subject: Subject, base: Asked) -> None:
-    """Add the table of cases for one function."""
     table = _table(program, subject, base)
     seen: set[tuple[Asked, bytes]] = set()
     for case in _cases(subject, base):

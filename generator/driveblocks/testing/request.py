@@ -267,14 +267,10 @@ def _holes(model: Requests, asked: Asked, spans: list[Span]) -> Iterator[Case]:
 
 
 class Sources:
-    """Where the manual lists an address."""
-
     def __init__(self, drive: Drive) -> None:
-        """Take the drive."""
         self.drive = drive
 
     def at(self, address: int) -> str:
-        """Section or table; words where it is in none."""
         found = self.drive.row_at(address)
         if found is not None:
             section, row = found

@@ -34,7 +34,6 @@ class Probe(NamedTuple):
 
     @property
     def call(self) -> str:
-        """The statement."""
         return f"Check{self.block}({self.pins}, Report := Report);"
 
 
@@ -113,12 +112,10 @@ class Program:
 
     @property
     def text(self) -> str:
-        """All of it."""
         return "\n".join([*self.head, self.body.text])
 
     @property
     def checks(self) -> tuple[Check, ...]:
-        """Its checks by number, from 1."""
         return self.body.checks
 
     @property
@@ -132,12 +129,10 @@ class Program:
 
     @property
     def stages(self) -> int:
-        """How many stages it has."""
         return len(self.scans)
 
     @property
     def path(self) -> str:
-        """Path below the folder of the tests."""
         return f"{self.folder}/{self.name}.st"
 
 

@@ -12,7 +12,6 @@ PROTOCOL = "MODBUS Application Protocol V1.1b3"
 
 
 def scripts(languages: Sequence[text.Language]) -> Iterator[Script]:
-    """All of them."""
     for subject in (checksum, framing, packing, builder):
         yield from subject.scripts()
     yield from _replies()

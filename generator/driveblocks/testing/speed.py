@@ -22,7 +22,6 @@ USUAL_MAXIMUM, USUAL_SCALE = 50.0, 10.0
 
 
 def scripts(drive: Drive, stem: str) -> Iterator[Script]:
-    """One program."""
     source = drive.operation.reference.source
     program = bench.script(drive, stem, "Reference", "a frequency as the word for the reference register", source)
     bench.declare(program, Encode=f"{drive.prefix}_Reference")
@@ -155,7 +154,6 @@ def _at(model: SpeedReference, maximum: float, scale: float) -> Iterator[tuple[s
 
 
 def _step(model: SpeedReference, maximum: float, scale: float) -> Fraction:
-    """Hz per count."""
     if model.factor is None:
         return 1 / Fraction(scale)
     if model.turns:

@@ -77,13 +77,11 @@ PAGE = "tests/README.md"
 
 
 def shared_suite(languages: Sequence[text.Language]) -> Suite:
-    """The programs of the blocks that every drive shares."""
     made = tuple(_finished("Frames, requests, replies and texts", shared.scripts(languages)))
     return Suite(GENERIC, made, len(made))
 
 
 def drive_suite(source: Source, languages: Sequence[text.Language]) -> Suite:
-    """The programs of one drive."""
     drive, stem = source.drive, source.path.stem
     made = [program for group, subject in GROUPS.items() for program in _finished(group, subject(drive, stem))]
     made += _finished("Texts", text.scripts(drive, stem, languages))

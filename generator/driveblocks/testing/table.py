@@ -20,7 +20,6 @@ class Table:
         self._usual: dict[str, tuple[str, Any]] = {}
 
     def column(self, name: str, type_: str, usual: Any, comment: str) -> None:
-        """Declare a variable and its usual value, as Python has it."""
         self._usual[name] = (type_, usual)
         self.script.variables[name] = (type_, comment)
         self.script.defaults.append(self._assigned(name, usual))

@@ -29,7 +29,6 @@ LAST = 0xFFFF
 
 
 def scripts(drive: Drive, stem: str, languages: Iterable[Language]) -> Iterator[Script]:
-    """Programs per kind of text and language that the map has."""
     faults = sorted({fault.code for fault in drive.faults.codes})
     numbers = {reference.error_number(error) for error in drive.errors.codes}
     rows = [row for _, row in drive.registers() if row.address.first <= LAST and drive.is_read(row)]

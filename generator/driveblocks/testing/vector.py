@@ -56,7 +56,6 @@ def _read(frame: Frame, data: bytes) -> str:
 
 
 def asked(means: Means, *, ascii_mode: bool = False) -> Asked:
-    """The request that an example frame is said to be."""
     single = means.values[0] if means.values and means.function == 6 else 0
     return Asked(
         means.function,
@@ -135,7 +134,6 @@ def _parsed(drive: Drive, frame: Frame) -> Iterator[Item]:
 
 
 def _quantities(drive: Drive, frame: Frame) -> Iterator[Item]:
-    """The engineering values that the manual's words give."""
     request = next((one for one in drive.frames if one.id == frame.answers), frame)
     for quantity in frame.means.quantities:
         row = drive.register_at(quantity.register)

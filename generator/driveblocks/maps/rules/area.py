@@ -23,7 +23,6 @@ _Claim = tuple[Place, str]
 
 
 def check(drive: Drive, report: Report) -> None:
-    """Note every rule that areas or storage break."""
     unique(drive.areas, "id", "area", report)
     for area in drive.areas:
         for example in area.examples:

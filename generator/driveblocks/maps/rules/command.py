@@ -17,7 +17,6 @@ _ENDS: dict[Does, tuple[Does, ...]] = {
 
 
 def check(drive: Drive, report: Report) -> None:
-    """Note every rule that commands break."""
     commands = drive.operation.commands
     seen = unique(commands, "does", "command", report)
     words: dict[frozenset[tuple[tuple[int, int], bool]], Command] = {}

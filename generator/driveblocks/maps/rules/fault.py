@@ -15,7 +15,6 @@ _ADDED = (0x40, 0x80)
 
 
 def check(drive: Drive, report: Report) -> None:
-    """Note every rule that faults or errors break."""
     codes = unique(drive.faults.codes, "code", "fault code", report, "{:02X}H".format)
     ids = unique(drive.faults.codes, "id", "fault", report)
     for code, fault in codes.items():

@@ -20,7 +20,6 @@ SENT = frozenset({0x03, 0x04, 0x06, 0x08, 0x10})
 
 
 def check(drive: Drive, report: Report) -> None:
-    """Note every rule that the line, the limits or the functions break."""
     _modes(drive.serial, report)
     _unit(drive.serial, report)
     if drive.serial.silence is not None:

@@ -83,7 +83,6 @@ def _wording(manual: Manual, entry: Some, key: str, english: str | None, report:
 
 
 def _inside(entry: Entry) -> Iterator[Entry]:
-    """An entry and every entry in it."""
     yield entry
     for value in vars(entry).values():
         if isinstance(value, Entry):

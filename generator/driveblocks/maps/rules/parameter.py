@@ -14,7 +14,6 @@ _NUMBERED = re.compile(r"(.*?)([0-9]+)")
 
 
 def check(drive: Drive, report: Report) -> None:
-    """Note every rule that the ids of registers or series break."""
     if not drive.id_forms:
         right = "write the form of the manual's ids, such as A9-99 for H5-01"
         report.add(drive.place("id_forms"), "`id_forms` is empty", right)

@@ -14,7 +14,6 @@ _SILENT_MS = 5_000
 
 
 def check(drive: Drive, report: Report) -> None:
-    """Note every rule that steps and states break."""
     states = unique(drive.operation.states, "name", "state", report)
     awaited = set()
     for command in drive.operation.commands:

@@ -23,7 +23,6 @@ class Known:
     """What references may name, and by which canonical names errata cover it."""
 
     def __init__(self, drive: Drive) -> None:
-        """Collect the names of a map."""
         self.drive = drive
         self.names: dict[str, set[str]] = {
             "frame": {frame.id for frame in drive.frames},

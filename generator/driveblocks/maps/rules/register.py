@@ -10,7 +10,6 @@ from driveblocks.maps.rules.unique import overlapping, unique
 
 
 def check(drive: Drive, report: Report) -> None:
-    """Note every rule that a register table breaks."""
     _sections(drive, report)
     if drive.numbering:
         _numbering(drive, drive.numbering, report)

@@ -16,7 +16,6 @@ _OTHER = ("fault", "error", "故障")
 
 
 def check(drive: Drive, report: Report) -> None:
-    """Note every rule that the proof of standstill breaks."""
     proof = drive.operation.standstill
     place, before = proof.place("all"), len(report.problems)
     if len({condition.register for condition in proof.all}) < 2:

@@ -15,7 +15,6 @@ _MEANT = ("unit", "function", "address", "words", "byte_count", "values", "sub_f
 
 
 def check(drive: Drive, report: Report) -> None:
-    """Note every rule that an example frame breaks."""
     frames = unique(drive.frames, "id", "frame", report)
     parsed: dict[str, adu.Fields] = {}
     for frame in drive.frames:

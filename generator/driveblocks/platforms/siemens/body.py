@@ -172,7 +172,6 @@ class _Body:
 
 
 def _parameters(part: Part, kind: VarKind) -> dict[str, str]:
-    """The parameters of a kind, by upper-case name."""
     blocks: list[VarBlock] = part.element.blocks if isinstance(part.element, Pou) else []
     return {one.name.upper(): one.name for block in blocks if block.kind is kind for one in block.variables}
 

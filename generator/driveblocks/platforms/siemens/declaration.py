@@ -38,7 +38,6 @@ _PER_ROW = 8
 
 
 def head(part: Part) -> Iterator[str]:
-    """The comment at the top, as the comment of the block."""
     yield from (f"// {line}".rstrip() for line in part.head.splitlines())
 
 

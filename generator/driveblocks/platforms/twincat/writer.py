@@ -120,7 +120,6 @@ def _globals() -> Item:
 
 
 def _task(name: str, program: str, interval_us: int, priority: int) -> Item:
-    """A task that calls a program."""
     ids = ("TaskFBGuid", "Fb_init", "Fb_exit", "CycleUpdate", "PostCycleUpdate")
     inner = [
         f'  <Task Name="{name}" Id="{_id(name)}">',
@@ -134,7 +133,6 @@ def _task(name: str, program: str, interval_us: int, priority: int) -> Item:
 
 
 def _item(part: Part, folder: str) -> Item:
-    """The file of a part."""
     name, id_ = part.name, _id(part.name)
     if isinstance(part.element, TypeDecl):
         text = part.text.rstrip("\n").replace("\n  END_STRUCT;\n", "\n  END_STRUCT\n")
@@ -151,7 +149,6 @@ def _declared(text: str) -> str:
 
 
 def _object(inner: str) -> str:
-    """A file with one object."""
     return _file(f'<TcPlcObject Version="1.1.0.1" ProductVersion="3.1.4024.0">\n{inner}</TcPlcObject>\n')
 
 

@@ -21,12 +21,10 @@ AT_REST: Shows = {
 
 
 def scripts(drive: Drive, stem: str) -> Iterator[Script]:
-    """One program."""
     yield script(drive, stem, "MotorAgain", "a PLC that begins anew in the midst of something", scenes(Ability(drive)))
 
 
 def scenes(can: Ability) -> Iterator[Scene]:
-    """A restart after each of these."""
     for words, steps in _midst(can):
         yield scene(f"a restart {words}", POWER, *steps, *_restart(can))
     yield scene("a restart with a fault", POWER, *_fault(can))

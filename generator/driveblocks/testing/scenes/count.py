@@ -46,7 +46,6 @@ COUNTERS = ("Timeouts", "Bad", "Refusals", "Retries")
 
 
 def scripts(drive: Drive, stem: str) -> Iterator[Script]:
-    """One program."""
     more = More(other=True, blocks=MARKS, calls=CALLS, after=AFTER)
     yield script(drive, stem, "MotorCount", "what a line counts and promises", scenes(Ability(drive)), more)
 

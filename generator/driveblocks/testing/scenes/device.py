@@ -56,7 +56,6 @@ def scripts(drive: Drive, stem: str) -> Iterator[Script]:
 
 
 def scenes(can: Ability, first: int) -> Iterator[Scene]:
-    """All of them; the meter's registers begin at `first`."""
     drive = can.drive
     begin = tuple(_begin(drive, first))
     yield scene("a meter is read beside a motor", *begin, run(), *_beside())

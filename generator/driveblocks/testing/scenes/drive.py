@@ -29,23 +29,19 @@ PLACES = 16
 
 @cache
 def environment() -> jinja2.Environment:
-    """The environment of the templates of test programs."""
     return strict("driveblocks.testing.scenes")
 
 
 def name(drive: Drive) -> str:
-    """The block's name."""
     return f"{drive.prefix}_TestDrive"
 
 
 def text(drive: Drive, faults: Iterable[int]) -> str:
-    """The block; `faults` are those that a test may give it."""
     return environment().get_template("TestDrive.st.j2").render(_context(drive, simulated(drive), tuple(faults)))
 
 
 @kept
 def simulated(drive: Drive) -> Table:
-    """What the simulator knows of a drive."""
     return table(drive, Habits(maximum_hz=MAXIMUM_HZ))
 
 

@@ -57,7 +57,6 @@ MS: Shows = {"Pins.ElapsedMs": 1}
 
 
 def scripts(drive: Drive, stem: str) -> Iterator[Script]:
-    """One program."""
     yield script(drive, stem, "MotorExact", "times to the millisecond", scenes(drive), MORE)
 
 
@@ -67,7 +66,6 @@ def _after(least: int, most: int) -> tuple[int, int]:
 
 
 def scenes(drive: Drive) -> Iterator[Scene]:
-    """All of them."""
     can = Ability(drive)
     yield scene("how often the reference is sent", POWER, run(), *_refresh(drive))
     yield scene("when the line stops a motor by itself", POWER, run(), *_attend())

@@ -130,7 +130,6 @@ class _Known:
         self.ages = [min(age + passed, NEVER_MS) for age in self.ages]
 
     def shows(self) -> Shows:
-        """What the block must show."""
         roles = self.roles
         self.proved = (self.proved or self.speed) and self._all("proof")
         found: Shows = {
@@ -213,7 +212,6 @@ def _orders(drive: Drive) -> Iterator[Row]:
 
 
 def _several(drive: Drive) -> bool:
-    """Whether a command has several writes."""
     return any(one.first for one in drive.operation.commands)
 
 
@@ -229,7 +227,6 @@ def _awaited(drive: Drive, one: Command, step: int) -> Shows:
 
 
 def _write(one: Command, step: int, *, several: bool) -> Shows:
-    """One of its writes; the bits that it keeps do not count."""
     write, last = one.writes[step], step == len(one.first)
     pattern = of_write(write)
     value = f"(TheOrders.Value AND {word(pattern.mask)})"

@@ -10,7 +10,6 @@ from driveblocks.testing.script import SCAN_MS, Script
 
 
 def scripts(drive: Drive, stem: str) -> Iterator[Script]:
-    """One program; it has a second drive."""
     can = Ability(drive)
     yield script(
         drive, stem, "MotorLine", "two motors on a line, and what goes wrong there", lines(can), More(other=True)
@@ -18,7 +17,6 @@ def scripts(drive: Drive, stem: str) -> Iterator[Script]:
 
 
 def lines(can: Ability) -> Iterator[Scene]:
-    """All scenes of the line."""
     unit = can.drive.serial.unit.min
     if can.drive.serial.unit.max > unit:
         yield scene("StopAll stops two motors", POWER, run(), *_stop_all(unit + 1))

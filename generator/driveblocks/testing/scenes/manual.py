@@ -108,7 +108,6 @@ def _sent(frame: Frame) -> Iterator[Step]:
 
 
 def _comes(data: bytes) -> Shows:
-    """A frame comes to the port."""
     came: Shows = {f".Printed[{at}]": byte(octet) for at, octet in enumerate(data)}
     return came | {".Inject": len(data)}
 

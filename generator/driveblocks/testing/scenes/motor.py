@@ -26,7 +26,6 @@ NOTHING_STARTED: Shows = {"Seen.Starts": 0, "Seen.Runs": 0, "Seen.Driven": False
 
 
 def scripts(drive: Drive, stem: str) -> Iterator[Script]:
-    """One program per group of scenes."""
     can = Ability(drive)
     groups = {
         "MotorStart": ("a motor from power-up to its speed", starts),
@@ -46,7 +45,6 @@ def run(shows: Shows | None = None) -> Step:
 
 
 def stand(shows: Shows | None = None, ms: int = 4000) -> Step:
-    """Wait for StopConfirmed."""
     return Step("the motor is at standstill", {}, "Motor.StopConfirmed", ms, STANDS | (shows or {}))
 
 
@@ -67,7 +65,6 @@ _UNMEASURED: Shows = {f"Motor.Diagnosis.{each}Valid": False for each in _MEASURE
 
 
 def starts(can: Ability) -> Iterator[Scene]:
-    """Power-up, starts, speeds, directions."""
     yield scene("power-up", *_power_up(can))
     yield scene("a run pin that is held since power-up", *_held())
     for does in can.motions:
@@ -396,7 +393,6 @@ def _restart() -> Iterator[Step]:
 
 
 def faults(can: Ability) -> Iterator[Scene]:
-    """Trips, resets, and resets that fail."""
     yield scene("a trip while it runs", POWER, run(), *_trip(can))
     yield scene("a trip at standstill", POWER, *_trip_still(can))
     if can.can("fault_reset"):

@@ -72,12 +72,10 @@ START = (
 
 
 def scripts(drive: Drive, stem: str) -> Iterator[Script]:
-    """One program."""
     yield script(drive, stem, "MotorOthers", "what is heard beside replies", scenes(Ability(drive)), MORE)
 
 
 def scenes(can: Ability) -> Iterator[Scene]:
-    """All of them."""
     drive = can.drive
     modes = drive.serial.mode.modes
     for mode in modes:

@@ -41,13 +41,11 @@ SLOW: Shows = {"Pins.ElapsedMs": 5 * SCAN_MS, "Pins.MaxScanMs": 5 * SCAN_MS}
 
 
 def scripts(drive: Drive, stem: str) -> Iterator[Script]:
-    """One program."""
     more = More(other=True, blocks=COUNTS, calls=CALLS)
     yield script(drive, stem, "MotorPace", "how often, and how soon", scenes(Ability(drive)), more)
 
 
 def scenes(can: Ability) -> Iterator[Scene]:
-    """All scenes of time."""
     yield scene("how often a stop is repeated", POWER, run(), *_repeated())
     yield scene("how often where it cannot be read", POWER, run(), *_unread())
     yield scene("how often a refused stop is", POWER, run(), *_refused())

@@ -77,14 +77,12 @@ EXECUTE = {"Reader": ".Reading", "Writer": ".Writing", "Storer": ".Storing"}
 
 
 def scripts(drive: Drive, stem: str) -> Iterator[Script]:
-    """One program."""
     more = More(blocks=BLOCKS, calls=CALLS)
     can = Ability(drive)
     yield script(drive, stem, "Parameters", "parameters beside a motor", scenes(can), more)
 
 
 def scenes(can: Ability) -> Iterator[Scene]:
-    """All scenes of parameters, as far as the map has any."""
     yield scene("what may not be read or written", idle(), *_barred(can))
     place = place_of(can.drive)
     if place is None:
@@ -112,7 +110,6 @@ def meant(drive: Drive) -> frozenset[int]:
 
 
 def idle() -> Step:
-    """Power-up, and nothing asked."""
     return Step("power-up", IDLE, "Motor.Ready", 2000, {"Reason": "READY"}, brisk=True)
 
 

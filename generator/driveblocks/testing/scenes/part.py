@@ -53,7 +53,6 @@ def parts() -> dict[str, Any]:
 
 
 def scripts(drive: Drive, stem: str) -> Iterator[Script]:
-    """A program of each block."""
     own = (_filled(block, part) for block, part in family.parts(drive).items())
     for part in (*_shared(), *own):
         block = part.name
@@ -86,7 +85,6 @@ def _instance(block: str) -> str:
 
 
 def _call(block: str, inputs: str) -> list[str]:
-    """The call, in pieces between which a line may end."""
     first, *others, last = _inputs(inputs)
     return [*(f"{each}," for each in (f"{_instance(block)}({first}", *others)), f"{last});"]
 

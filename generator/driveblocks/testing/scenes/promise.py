@@ -44,7 +44,6 @@ class Promise:
 
     @property
     def line_keeps(self) -> bool:
-        """Whether the line keeps it."""
         return not self.keeps or self.silence >= self.quiet
 
     @property
@@ -62,12 +61,10 @@ class Promise:
 
     @property
     def alone(self) -> int:
-        """StopAloneMs."""
         return self._poll + self._more + self.port + self.quiet
 
     @property
     def worst(self) -> int:
-        """WorstStopMs."""
         return self.alone + (self.drives - 1) * (self._stop + self._more)
 
     @property

@@ -113,7 +113,6 @@ def script(  # noqa: PLR0913, PLR0917 - what the head of a program says, its sce
     scenes: Iterable[Scene],
     more: More = More(),
 ) -> Script:
-    """The program of some scenes."""
     program = bench.script(drive, stem, subject, title)
     program.variables |= _variables(drive, other=more.other) | dict(more.blocks)
     program.plant = _plant(drive, more)
@@ -140,12 +139,10 @@ def _stage(can: Ability, one: Scene, index: int, step: Step) -> Stage:
 
 
 def statements(sets: Mapping[str, Value]) -> list[Item]:
-    """What is set."""
     return [f"{_path(key, 'Pins')} := {_literal(value)};" for key, value in sets.items()]
 
 
 def checks(shows: Mapping[str, Value]) -> list[Item]:
-    """What must be so."""
     return [_check(key, value) for key, value in shows.items()]
 
 

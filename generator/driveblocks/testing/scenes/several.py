@@ -23,13 +23,11 @@ SLACK = 4 * SCAN_MS
 
 
 def scripts(drive: Drive, stem: str) -> Iterator[Script]:
-    """One program."""
     more = More(blocks=BLOCKS, calls=CALLS)
     yield script(drive, stem, "ParameterTurns", "several registers, turns and time", scenes(Ability(drive)), more)
 
 
 def scenes(can: Ability) -> Iterator[Scene]:
-    """All of them, as far as the map has registers for them."""
     yield scene("several registers are read", idle(), *_read(can.drive))
     yield scene("several registers are written", idle(), *_written(can.drive))
     yield scene("one of several that may not be written", idle(), *_not_all(can.drive))

@@ -28,14 +28,12 @@ MORE = More(
 
 
 def scripts(drive: Drive, stem: str) -> Iterator[Script]:
-    """One program."""
     yield script(
         drive, stem, "MotorSlot", "what the line gets to know, and memory that is not blank", scenes(drive), MORE
     )
 
 
 def scenes(drive: Drive) -> Iterator[Scene]:
-    """All scenes of the slot."""
     can = Ability(drive)
     yield scene("memory that is not blank", *_not_blank(drive))
     yield scene("settings in use", *_settings(can))
@@ -66,7 +64,6 @@ def _command(drive: Drive, does: str) -> Command:
 
 
 def _write(drive: Drive, register: int) -> int:
-    """What writes a register."""
     row = drive.register_at(register, "w")
     if is_bit(register):
         return 5
