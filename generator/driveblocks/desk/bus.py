@@ -34,8 +34,6 @@ class Counts:
 
 @dataclass(frozen=True)
 class Frame:
-    """A frame on the line."""
-
     at_us: float
     data: bytes
     reply: bool

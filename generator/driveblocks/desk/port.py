@@ -181,8 +181,6 @@ def takes(tuned: Callable[[], object]) -> bool:
 
 
 class _Serial:
-    """A serial port as a device."""
-
     def __init__(self, name: str, bit_rate: int, form: str) -> None:
         import serial
 

@@ -28,7 +28,6 @@ def adapter(platform: str, languages: list[Language]) -> Iterator[File]:
 
 
 def first_motor(platform: str, drive: Drive) -> File:
-    """A program for a first motor."""
     one = PLATFORMS[platform]
     own = CANONICAL if one.prefix == "MB" else platform
     values = {"platform": own, "where": one.where, "line": f"{one.line}{LINE_SIZES[0]}", **vars(motor(drive))}

@@ -65,7 +65,6 @@ NO_IEC2C = "no iec2c found (looked on PATH and in MATIEC_HOME)"
 
 
 def survey(environment: Mapping[str, str] = os.environ) -> Survey:
-    """Look for everything, and try what was found."""
     compiler = find_c_compiler(environment)
     cache = Cache(cache_folder(environment))
     examined = [_examine(each, compiler, cache) for each in look_everywhere(environment)]

@@ -47,7 +47,6 @@ class BuildError(EngineError):
     """The sources do not compile; `messages` says where and why."""
 
     def __init__(self, messages: Sequence[Message]) -> None:
-        """Keep the messages; the text of the error is one per line."""
         self.messages = tuple(messages)
         super().__init__("\n".join(str(message) for message in self.messages))
 
@@ -56,7 +55,6 @@ class ScanError(EngineError):
     """A scan went wrong at a line: an index out of bounds, an overflow, an endless loop."""
 
     def __init__(self, message: Message) -> None:
-        """Keep the place; the text of the error is the message."""
         self.message = message
         super().__init__(str(message))
 

@@ -117,7 +117,6 @@ def _unsupported(report: Report, element: Unsupported) -> None:
 
 
 def _check_types(scope: Scope, checked: Checked) -> None:
-    """Check the initial values of the declared types."""
     for unit in checked.units:
         scope.report.unit = unit
         for element in unit.elements:

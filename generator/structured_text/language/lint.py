@@ -120,7 +120,6 @@ def _pous(units: Sequence[Unit]) -> list[Pou]:
 
 
 def _pou(pou: Pou, checked: Checked, report: Report) -> None:
-    """All rules about one POU."""
     scope = Scope(pou, checked, report)
     lint_declaration.pou(scope)
     lint_statement.pou(scope)

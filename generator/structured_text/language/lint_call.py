@@ -53,7 +53,6 @@ def _order(scope: Scope, value: Call) -> None:
 
 
 def _builtin(scope: Scope, value: Call, target: Builtin) -> None:
-    """A standard function."""
     if target.family == "CONVERT":
         _conversion(scope, value, target)
     elif target.family == "TRUNC":

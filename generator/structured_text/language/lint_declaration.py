@@ -106,7 +106,6 @@ def _type(declared: TypeDecl, report: Report) -> None:
 
 
 def _spec(spec: Spec, report: Report) -> None:
-    """What follows a colon."""
     if isinstance(spec, StringSpec):
         if spec.length is not None:
             report.add(spec.at, "sized-string", "STRING with a length is refused by matiec: write STRING")
@@ -175,7 +174,6 @@ def _configuration(configuration: Configuration, report: Report) -> None:
 
 
 def _block(block: VarBlock, report: Report) -> None:
-    """A VAR block of any kind."""
     if not block.variables:
         report.add(block.at, "empty-var-block", "matiec crashes on a VAR block without variables: remove it")
     _qualifiers(block, report)

@@ -103,7 +103,6 @@ def _pointed(text: str) -> str:
 
 
 def _integer(scope: Scope, value: Literal) -> None:
-    """Integers and bit strings."""
     made: Type = plain(value.type)
     if made is BOOL:
         _bool(scope, value)
@@ -122,7 +121,6 @@ def _bits(made: Type, number: int) -> str:
 
 
 def _bool(scope: Scope, value: Literal) -> None:
-    """Truth values."""
     wanted = "TRUE" if value.value else "FALSE"
     scope.add(value.at, "bool-literal", f"IronPLC refuses {value.text} for a BOOL: write {wanted}")
 

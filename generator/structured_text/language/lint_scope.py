@@ -24,7 +24,6 @@ class Scope:
     _ranges: Ranges | None = field(default=None, init=False)
 
     def __post_init__(self) -> None:
-        """Walk over the body once."""
         self.statements = list(statements(self.pou.body))
         self.heads = [head for statement in self.statements for head in heads(statement)]
         self.expressions = [each for head in self.heads for each in expressions(head)]
@@ -37,7 +36,6 @@ class Scope:
         return self._ranges
 
     def add(self, at: int, rule: str, text: str) -> None:
-        """Report a finding."""
         self.report.add(at, rule, text)
 
     def initials(self) -> Iterator[Expression]:

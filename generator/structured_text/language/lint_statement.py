@@ -77,7 +77,6 @@ def _label(scope: Scope, label: Expression) -> None:
 
 
 def _loop(scope: Scope, statement: For | While | RepeatUntil) -> None:
-    """FOR, WHILE, REPEAT."""
     if isinstance(statement, For):
         text = (
             "a FOR that should run once runs zero times on Beremiz's matiec, and its control variable ends at "

@@ -17,7 +17,6 @@ class ParseError(SourceError):
     """The text is no Structured Text; `unit` holds those elements of it that are whole."""
 
     def __init__(self, problems: Sequence[Problem], unit: Unit) -> None:
-        """Keep the problems and what could be read."""
         super().__init__(problems)
         self.unit = unit
 

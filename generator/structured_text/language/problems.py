@@ -25,7 +25,6 @@ class SourceError(Exception):
     """Sources that cannot be used; `problems` holds everything that was found, in order of place."""
 
     def __init__(self, problems: Sequence[Problem]) -> None:
-        """Keep the problems; the text of the error is one per line."""
         self.problems = tuple(problems)
         super().__init__("\n".join(str(each) for each in self.problems))
 

@@ -15,12 +15,10 @@ class Report:
     __slots__ = ("found", "unit")
 
     def __init__(self) -> None:
-        """Start empty; `unit` is the file that offsets refer to."""
         self.found: dict[tuple[int, int, str], tuple[Unit, str]] = {}
         self.unit: Unit | None = None
 
     def add(self, at: int, rule: str, text: str) -> None:
-        """Note a problem at an offset of the current file."""
         if self.unit is not None:
             self.found.setdefault((id(self.unit), at, rule), (self.unit, text))
 

@@ -40,7 +40,6 @@ class Resolver:
     """Turns specifications into types. `constants` are the constants in scope while a POU's declarations are read."""
 
     def __init__(self, library: Library) -> None:
-        """Resolve against these declarations."""
         self.library = library
         self.report = library.report
         self.constants: dict[str, VarDecl] = {}
@@ -94,7 +93,6 @@ class Resolver:
         return made
 
     def _made(self, spec: Spec, name: str) -> Type:
-        """Dispatch on the form; only some forms take the name of their declaration."""
         if isinstance(spec, NamedSpec):
             return self.named(spec)
         if isinstance(spec, StringSpec):

@@ -668,7 +668,6 @@ class Unit:
         return line, at - self.starts[line - 1] + 1
 
     def line(self, at: int) -> int:
-        """The 1-based line of an offset."""
         return bisect_right(self.starts, at)
 
 
@@ -689,7 +688,6 @@ class Array(Type):
 
     @property
     def length(self) -> int:
-        """How many elements in all dimensions together."""
         count = 1
         for low, high in self.bounds:
             count *= high - low + 1

@@ -54,7 +54,6 @@ class Type:
 
 
 def least(width: int, *, signed: bool) -> int:
-    """The least whole number of a width in bits."""
     return -(1 << (width - 1)) if signed else 0
 
 
@@ -77,12 +76,10 @@ class Elementary(Type):
 
     @property
     def low(self) -> int:
-        """The least value of a bit string or integer."""
         return least(self.width, signed=self.signed)
 
     @property
     def high(self) -> int:
-        """The greatest value of a bit string or integer."""
         return greatest(self.width, signed=self.signed)
 
 

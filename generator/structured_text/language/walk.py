@@ -115,7 +115,6 @@ _CHILDREN: dict[type[Expression], Callable[[Any], list[Expression]]] = {
 
 
 def expressions(value: Expression) -> Iterator[Expression]:
-    """An expression and all inside it, outermost first."""
     stack = [value]
     while stack:
         here = stack.pop()

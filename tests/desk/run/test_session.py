@@ -10,7 +10,7 @@ from tests.maps import bad
 from tests.simulator.talk import MAPS
 
 from driveblocks.desk import ending
-from driveblocks.desk.bus import Bus as Wire
+from driveblocks.desk.bus import Bus
 from driveblocks.desk.clock import VirtualClock
 from driveblocks.desk.ending import Ending
 from driveblocks.desk.master import CHATTER_US, REPLY_US, Speech
@@ -424,7 +424,7 @@ def test_a_drive_that_coils_command_is_stopped_and_its_standstill_read() -> None
     drive, clock = SimulatedDrive(coils, 5), VirtualClock()
     drive.keypad_run(20)
     drive.step(5000)
-    line = Line(Wire([drive], 19200, 10, ascii_mode=False), clock)
+    line = Line(Bus([drive], 19200, 10, ascii_mode=False), clock)
     stopper = Stopper(Gate(line, clock), clock, Ending(), Speech("rtu", 521.0))
     stops = {5: Stop(coils, 1_000_000)}
     stopper.stop(stops)

@@ -52,7 +52,6 @@ class Named:
     """Scales that its user has set: their names as in VFD_Settings, and numbers."""
 
     def made(self, *, ascii_mode: bool) -> SimulatedDrive:
-        """The drive."""
         places = open_scales(self.drive)
         scales = {places[name]: _factor(name, number) for name, number in self.scales}
         return SimulatedDrive(

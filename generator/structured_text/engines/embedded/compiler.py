@@ -58,12 +58,10 @@ class Compiler:
     # ------------------------------------------------------------ what others ask for
 
     def body(self, block: Block) -> Body:
-        """The body of a block, as a function of its instance."""
         body: Body = self.objects[body_name(block)]
         return body
 
     def function(self, function: tree.Function) -> Callable[..., Any]:
-        """The Python function of an ST function."""
         made: Callable[..., Any] = self.objects[function_name(function)]
         return made
 

@@ -62,7 +62,6 @@ class Floats:
         return self.pen.call("agree", self._standard(term), self._c(term))
 
     def compare(self, left: Floating, operator: ast.cmpop, right: Floating) -> ast.expr:
-        """The truth of a comparison."""
         pen = self.pen
         standard = pen.compare(self._standard(left), (operator, self._standard(right)))
         if not (self._differs(left) or self._differs(right)):

@@ -42,7 +42,6 @@ Emitter = Callable[[Scope, Builtin, list[Term]], Term]
 
 
 def builtin(scope: Scope, call: tree.Call, target: Builtin) -> Term:
-    """A call of a standard function. UnsupportedError."""
     emit = _EMITTERS.get(target.family)
     if emit is None and target.family.startswith(("ADD_", "SUB_")):
         emit = _time_function

@@ -38,7 +38,6 @@ class EmbeddedInstance:
         self.scan = scan
 
     def __getitem__(self, path: str) -> Value:
-        """Read a variable of its own, else a global. KeyError."""
         try:
             return self._paths.read(self._root, path)
         except KeyError:
@@ -48,7 +47,6 @@ class EmbeddedInstance:
             return paths.read(root, path)
 
     def __setitem__(self, path: str, value: Value) -> None:
-        """Write a variable of its own, else a global. KeyError, ValueError."""
         try:
             self._paths.write(self._root, path, value)
         except KeyError:
@@ -63,8 +61,6 @@ class EmbeddedInstance:
 
 
 class EmbeddedLibrary:
-    """Compiled sources."""
-
     def __init__(self, compiler: Compiler, loop_limit: int) -> None:
         """Take what the compiler has made; a scan may take `loop_limit` turns of loops."""
         self.compiler = compiler

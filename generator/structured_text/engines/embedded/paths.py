@@ -69,7 +69,6 @@ class Paths:
     """All places of the instances of one block."""
 
     def __init__(self, block: Block) -> None:
-        """Prepare for a block."""
         self.block = block
         self._places: dict[str, Place] = {}
         self._readers: dict[str, Callable[[Any], Value]] = {}

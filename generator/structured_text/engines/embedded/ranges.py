@@ -41,7 +41,6 @@ class Ranges:
         return Ranges(dict(self.known), self.dead)
 
     def of(self, variable: tree.VarDecl) -> Interval:
-        """What a variable can be."""
         return self.known.get(variable) or declared(variable)
 
     def set(self, variable: tree.VarDecl, low: int, high: int) -> None:

@@ -28,7 +28,6 @@ class UnsupportedError(Exception):
     """A construct that the engine does not run, with its offset in the source."""
 
     def __init__(self, at: int, text: str) -> None:
-        """Keep the place."""
         self.at = at
         super().__init__(text)
 
@@ -68,7 +67,6 @@ class Scope:
     floats: Floats = field(init=False)
 
     def __post_init__(self) -> None:
-        """Prepare to bring terms to values."""
         self.widths = Widths(self.pen, self.fresh)
         self.floats = Floats(self.pen, self.strict)
 

@@ -45,7 +45,6 @@ class Shapes:
     """Makes and copies values of the types of one build."""
 
     def __init__(self) -> None:
-        """Start without any."""
         self.classes: dict[Struct, type[Record]] = {}
         self.globals: dict[tree.VarDecl, str] = {}
         self.makers: dict[Type, Maker] = {}

@@ -40,13 +40,11 @@ class Pen:
         return self.at
 
     def back(self, mark: int) -> None:
-        """Return to a marked place."""
         self.move(mark)
 
     # ------------------------------------------------------------ expressions
 
     def name(self, name: str) -> ast.Name:
-        """Read a Python variable."""
         return ast.Name(name, ast.Load(), **self.here)
 
     def constant(self, value: Any) -> ast.expr:
@@ -63,7 +61,6 @@ class Pen:
         return ast.Subscript(base, index, ast.Load(), **self.here)
 
     def binary(self, left: ast.expr, operator: ast.operator, right: ast.expr) -> ast.BinOp:
-        """Join two operands."""
         return ast.BinOp(left, operator, right, **self.here)
 
     def unary(self, operator: ast.unaryop, operand: ast.expr) -> ast.UnaryOp:
@@ -83,7 +80,6 @@ class Pen:
         return values[0] if len(values) == 1 else ast.BoolOp(operator, list(values), **self.here)
 
     def call(self, function: str, *arguments: ast.expr) -> ast.Call:
-        """Call a global function."""
         return ast.Call(self.name(function), list(arguments), [], **self.here)
 
     def method(self, base: ast.expr, name: str, *arguments: ast.expr) -> ast.Call:
@@ -99,7 +95,6 @@ class Pen:
         return ast.NamedExpr(ast.Name(name, ast.Store(), **self.here), value, **self.here)
 
     def row(self, *items: ast.expr) -> ast.Tuple:
-        """Write a tuple."""
         return ast.Tuple(list(items), ast.Load(), **self.here)
 
     # ------------------------------------------------------------ statements
@@ -135,7 +130,6 @@ class Pen:
         return ast.Return(value, **self.here)
 
     def stop(self) -> ast.Break:
-        """Write `break`."""
         return ast.Break(**self.here)
 
     def again(self) -> ast.Continue:
@@ -143,7 +137,6 @@ class Pen:
         return ast.Continue(**self.here)
 
     def nothing(self) -> ast.Pass:
-        """Write `pass`."""
         return ast.Pass(**self.here)
 
     def function(self, name: str, parameters: list[str], body: list[ast.stmt]) -> ast.FunctionDef:

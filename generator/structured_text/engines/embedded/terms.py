@@ -23,12 +23,10 @@ class CInteger(NamedTuple):
 
     @property
     def low(self) -> int:
-        """The least value."""
         return least(self.width, signed=self.signed)
 
     @property
     def high(self) -> int:
-        """The greatest value."""
         return greatest(self.width, signed=self.signed)
 
 

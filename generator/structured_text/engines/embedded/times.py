@@ -51,12 +51,10 @@ def _long(number: int) -> int:
 
 
 def c_add(left: Span, right: Span) -> Span:
-    """Add as matiec does."""
     return normalised(left[0] + right[0], left[1] + right[1])
 
 
 def c_subtract(left: Span, right: Span) -> Span:
-    """Subtract as matiec does."""
     return normalised(left[0] - right[0], left[1] - right[1])
 
 

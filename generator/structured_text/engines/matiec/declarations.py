@@ -26,8 +26,6 @@ class ArrayOf:
 
 @dataclass(frozen=True)
 class Record:
-    """A structure's fields by upper-case name."""
-
     fields: dict[str, "Spec"]
 
 

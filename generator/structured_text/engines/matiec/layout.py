@@ -160,7 +160,6 @@ class ArrayNode:
 
     @property
     def size(self) -> int:
-        """Bytes of all elements."""
         return self.stride * prod(self.lengths)
 
     def read(self, memory: Memory, offset: int) -> Value:
@@ -236,7 +235,6 @@ class RecordNode:
     parts: dict[str, Part] = field(default_factory=dict)
 
     def read(self, memory: Memory, offset: int) -> Value:
-        """Make a dict."""
         parts = self.parts.items()
         return {name: part.node.read(memory, offset + part.offset) for name, part in parts if part.listed}
 
@@ -295,7 +293,6 @@ class Snapshot:
     """Reads all leaves of a node in one go; made for calls after every scan."""
 
     def __init__(self, node: Node) -> None:
-        """Compile the reader."""
         leaves = list(node.leaves("", 0))
         self._paths = [path for path, _, _ in leaves]
         order = sorted(range(len(leaves)), key=lambda i: leaves[i][1])

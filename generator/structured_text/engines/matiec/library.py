@@ -30,12 +30,10 @@ class BlockType:
 
     @cached_property
     def paths(self) -> Paths:
-        """Find variables by path."""
         return Paths(self.node)
 
     @cached_property
     def snapshot(self) -> Snapshot:
-        """Read all variables at once."""
         return Snapshot(self.node)
 
     def trap(self, number: int) -> ScanError:
@@ -54,7 +52,6 @@ class MatiecInstance:
     """An instance in zeroed memory of its own, on the clock of its library."""
 
     def __init__(self, block: BlockType, clock: Clock) -> None:
-        """Let the C initialise it."""
         self._block = block
         self._memory: Memory = ctypes.create_string_buffer(block.node.size)
         self._address = ctypes.c_void_p(ctypes.addressof(self._memory))
@@ -63,17 +60,14 @@ class MatiecInstance:
         block.init(self._address)
 
     def __getitem__(self, path: str) -> Value:
-        """Read a variable."""
         _refuse_empty(path)
         return self._block.paths.read(self._memory, path)
 
     def __setitem__(self, path: str, value: Value) -> None:
-        """Write a variable."""
         _refuse_empty(path)
         self._block.paths.write(self._memory, path, value)
 
     def scan(self, now_ns: int | None = None) -> None:
-        """Run the body once."""
         if now_ns is None:
             now_ns = self._clock.now
         else:
@@ -91,7 +85,6 @@ class MatiecInstance:
             raise self._block.trap(trap)
 
     def state(self) -> dict[str, Value]:
-        """Read every variable."""
         return self._block.snapshot.read(self._memory)
 
 
@@ -104,7 +97,6 @@ class MatiecLibrary:
     """Compiled sources. `warnings`: what both compilers said; `folder`: the C, as long as the cache has it."""
 
     def __init__(self, built: Built) -> None:
-        """Take what the engine has loaded."""
         self.warnings = built.warnings
         self.folder = built.folder
         self.built = built
@@ -122,7 +114,6 @@ class MatiecLibrary:
                 yield unit.name
 
     def instance(self, type_name: str) -> MatiecInstance:
-        """Make an instance. KeyError."""
         return MatiecInstance(self._type(type_name.upper()), self._clock)
 
     def _type(self, name: str) -> BlockType:

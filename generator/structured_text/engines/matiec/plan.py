@@ -53,7 +53,6 @@ class Expressions:
     """A Measure that collects; the order is the order of first use."""
 
     def __init__(self) -> None:
-        """Start empty."""
         self.found: dict[str, None] = {}
 
     def __call__(self, expression: str) -> int:
@@ -113,7 +112,6 @@ class Planner:
             self.plan.globals[each.owner, each.name] = self._held(each.type, each.storage, spec)
 
     def node(self, type_name: str, spec: Spec | None) -> Node:
-        """Plan a data type; `spec` is what the ST says of it, if that is known."""
         spec = self.declared.resolve(spec)
         if type_name == "BOOL":
             return boolean()

@@ -30,7 +30,6 @@ class Cursor:
     )  # fmt: skip
 
     def __init__(self, tokens: Tokens) -> None:
-        """Begin before the first token."""
         self.tokens = tokens
         self.kinds, self.texts, self.ats = tokens.kinds, tokens.texts, tokens.ats
         self.before, self.notes = tokens.before, tokens.notes

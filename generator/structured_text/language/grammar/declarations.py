@@ -129,7 +129,6 @@ def _address(cursor: Cursor) -> str | None:
 
 
 def _edge(cursor: Cursor) -> str:
-    """R_EDGE or F_EDGE."""
     return next((each for each in ("R_EDGE", "F_EDGE") if cursor.word(each)), "")
 
 

@@ -15,7 +15,6 @@ _MODIFIERS = frozenset(["ABSTRACT", "FINAL", "PUBLIC", "PRIVATE", "PROTECTED", "
 
 
 def parsed_elements(cursor: Cursor) -> list[Element]:
-    """The whole file. Raises TooManyProblemsError."""
     made: list[Element] = []
     while cursor.kinds[cursor.i] != END:
         cursor.depth = 0

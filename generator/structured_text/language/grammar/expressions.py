@@ -217,7 +217,6 @@ def _argument(cursor: Cursor) -> Argument:
 
 
 def _boolean(at: int, text: str) -> Literal:
-    """TRUE or FALSE."""
     return Literal(at, text, LiteralKind.BOOL, text.upper() == "TRUE")
 
 

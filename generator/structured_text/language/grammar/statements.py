@@ -99,7 +99,6 @@ def _closed(cursor: Cursor, word: str) -> None:
 
 
 def _simple(cursor: Cursor) -> Statement:
-    """An assignment or a call."""
     kind = cursor.kinds[cursor.i]
     at = cursor.ats[cursor.i]
     if kind != "name" and kind not in _SOFT and kind != "direct":

@@ -57,7 +57,6 @@ def _unknown_callee(scope: Scope, value: Call, name: str) -> Type:
 
 
 def _invoke(scope: Scope, value: Call, statement: bool) -> Type:
-    """A block instance."""
     have = infer(scope, value.callee)
     if not isinstance(have, Block):
         for each in value.arguments:

@@ -9,7 +9,6 @@ from structured_text.language.types import BOOL, INT, TIME
 
 
 def check_configuration(scope: Scope, configuration: Configuration) -> None:
-    """Tasks and program instances."""
     for resource in configuration.resources:
         tasks = _tasks(scope, resource)
         names: set[str] = set()

@@ -70,7 +70,6 @@ def literal(scope: Scope, value: Literal) -> Type:
 
 
 def name(scope: Scope, value: Name) -> Type:
-    """A variable or an enumerated value."""
     symbol = scope.symbols.get(value.name.upper())
     if symbol is not None:
         value.symbol = symbol
@@ -127,7 +126,6 @@ def _enum_value(scope: Scope, value: Qualified | Member, enum: Type, type_name: 
 
 
 def member(scope: Scope, value: Member) -> Type:
-    """A field, or a variable of an instance."""
     if isinstance(value.base, Name) and value.base.name.upper() not in scope.symbols:
         found = scope.library.find(value.base.name)
         if isinstance(found, TypeDecl):
@@ -164,7 +162,6 @@ def block_variable(block: Block, upper: str) -> Any:
 
 
 def index(scope: Scope, value: Index) -> Type:
-    """An element of an array."""
     base = infer(scope, value.base)
     for each in value.indices:
         _index_type(scope, each)

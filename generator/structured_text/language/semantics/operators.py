@@ -81,7 +81,6 @@ def _operand(scope: Scope, value: Expression, kinds: frozenset[Kind], op: str, h
 
 
 def binary(scope: Scope, value: Binary) -> Type:
-    """Two operands."""
     left, right = infer(scope, value.left), infer(scope, value.right)
     if UNKNOWN in (left, right):
         for each in (value.left, value.right):
