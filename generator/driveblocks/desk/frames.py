@@ -11,6 +11,8 @@ from driveblocks.modbus.scan import pieces, size_of
 
 QUIET_US = 20_000
 """Bytes that begin no frame wait so long for their rest; an adapter may hand over a frame in pieces."""
+PIECES_US = 300_000
+"""A gateway or a busy machine hands over a frame in pieces so far apart."""
 LONGEST = 520
 """Bytes after which they wait no more."""
 BROADCAST = 8
@@ -39,6 +41,8 @@ class Cutter:
         self._came_us = self._ended_us = 0
         self.expects: frozenset[int] = frozenset()
         """Lengths of good frames that are the beginning of no longer one here."""
+        self.begins = b""
+        """The first bytes of a reply to our request."""
         self.request = b""
         """Ours, which an adapter may give back."""
 
@@ -49,10 +53,16 @@ class Cutter:
             self._came.append((len(data), now_us))
         while size := self._front():
             yield self._cut(size, good=True)
-        if now_us - self._came_us >= max(QUIET_US, 4 * self._character_us):
+        if now_us - self._came_us >= max(self.patience_us, 4 * self._character_us):
             yield from self.rest()
         elif len(self._bytes) > LONGEST:
             yield from self.rest(LONGEST // 2)
+
+    @property
+    def patience_us(self) -> int:
+        """How long the bytes that have come wait for their rest: a reply that has begun may come in pieces."""
+        begun = self.begins and self._bytes.startswith(self.begins) and len(self._bytes) < max(self.expects, default=0)
+        return PIECES_US if begun else QUIET_US
 
     def rest(self, keep: int = 0) -> Iterator[Frame]:
         """What is left, but for `keep` bytes that may begin a frame."""

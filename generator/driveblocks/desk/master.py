@@ -153,8 +153,8 @@ class Master:
         request, begin = seal(self.speech.mode, body), self._clock.now_us()
         end = self._spoken_us = begin + self._wire_us(request)
         self._cutter.dialects = self.said.dialects
-        self._cutter.expects = frozenset(2 + each for each in sizes(body, self._cutter.dialects))
-        self._cutter.request = request
+        self._cutter.expects = frozenset(self._length(each) for each in sizes(body, self._cutter.dialects))
+        self._cutter.request, self._cutter.begins = request, body[:2] if self.speech.mode == "rtu" else b":"
         self._port.send(request)
         self.said.sent(Frame(begin, end, request, good=True))
         size = reply_size(body) if body[1] in READS else len(body)
@@ -187,14 +187,14 @@ class Master:
                 heard.append(said)
                 if said.role in ("reply", "refusal"):
                     return self._good(body, said, end, heard)
+        heard += map(self.said.hear, self._cutter.rest())
         return _spoilt(body, heard, self._data)
 
     def _waits(self, until: int) -> bool:
         """Whether it is not yet that time, or somebody speaks just now."""
         now = self._clock.now_us()
-        return now < until or (
-            self._data != b"" and now - self._spoken_us < self._silence_us and now < until + CHATTER_US
-        )
+        quiet = max(self._silence_us, self._cutter.patience_us)
+        return now < until or (self._data != b"" and now - self._spoken_us < quiet and now < until + CHATTER_US)
 
     def _good(self, body: bytes, said: Said, end: int, heard: list[Said]) -> Reply:
         layout, echo = said.layout, any(each.role == "echo" for each in heard)
@@ -247,6 +247,10 @@ class Master:
         self.lates += sum(each.role == "late" for each in heard)
         self.strays += sum(each.role in STRAYS or (each.role == "damaged" and not self.said.waits) for each in heard)
         return heard
+
+    def _length(self, size: int) -> int:
+        """Bytes of a frame whose body is so long."""
+        return len(seal(self.speech.mode, bytes(size)))
 
     def _wire_us(self, frame: bytes) -> int:
         return int(len(frame) * self.speech.character_us)

@@ -43,6 +43,8 @@ class Controller:
         self.met: set[int] = set()
         """Units that have answered, or to which anything but a read or a stop was sent."""
         self._came: bytes | None = None
+        self._said = self._heard = b""
+        """What was sent last, and what has come since."""
         self._asked = 0
         """The unit that was asked last."""
         self._called_ms: int | None = None
@@ -55,7 +57,9 @@ class Controller:
 
     def receive(self) -> None:
         """Take what has come; before the time of the scan is taken, so that nothing came after it."""
-        if some := self._port.receive():
+        some = self._port.receive()
+        self._heard += some
+        if some and not self._said.startswith(self._heard):  # else it is our own echo
             self.met.add(self._asked)
         self._came = (self._came or b"") + some
 
@@ -70,7 +74,7 @@ class Controller:
         self.instance.scan((now_us - self._begun_us) * 1000)
         frame = self._mailbox.take()
         if frame and self._passes(frame):
-            self._asked = self._unit_of(frame)
+            self._asked, self._said, self._heard = self._unit_of(frame), frame, b""
             self._port.send(frame)
 
     def _time(self, now_us: int) -> None:
