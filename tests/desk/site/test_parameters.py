@@ -326,7 +326,8 @@ def test_ctrl_c_keeps_what_was_read_and_the_same_command_reads_the_rest(tmp_path
         assert [*tmp_path.iterdir()] == [path]
         path.write_text(path.read_text(encoding="utf-8"), encoding="utf-8")
         done = subprocess.run(command, capture_output=True, text=True, check=False)
-    assert (done.returncode, done.stdout) == (0, f"SN300G5 at unit 1: 388 registers, in {path}\n")
+    assert done.returncode == 0
+    assert done.stdout.startswith(f"SN300G5 at unit 1: 388 registers, in {path}\n")
     assert len(saved.read(path).words) == 388
 
 
