@@ -164,11 +164,11 @@ class Master:
     def patient(self, body: bytes, busy: int | None = None) -> Reply:
         """The same, again where the line spoils the reply or the drive is busy, which is that reason of a refusal."""
         reply = Reply("silent")
-        for _ in range(TRIES):
+        for tried in range(TRIES):
             reply = self.ask(body)
             if reply.answered and (busy is None or reply.refused != busy):
                 break
-            if reply.kind == "unclear":
+            if reply.kind == "unclear" or (reply.kind == "silent" and not tried):
                 self.rest(LATE_US)
             elif reply.answered:
                 self.rest(BUSY_US)

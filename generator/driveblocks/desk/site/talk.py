@@ -102,7 +102,7 @@ class Talk:
                 return reply
             if reply.kind == "foreign":
                 break
-            if reply.kind == "unclear":
+            if reply.kind == "unclear" or (reply.kind == "silent" and len(replies) == 1):
                 self.line.master.rest(LATE_US)
             if len(replies) == SILENT and not any(each.data for each in replies) and not self.line.master.said.damaged:
                 break
