@@ -99,7 +99,8 @@ def _settings(ask: Ask, drive: Drive, unit: int) -> list[Reply]:
 
 
 def _what(poll: Poll) -> str:
-    return f"{poll.words} words from {address_text(poll.address)}"
+    count = "1 word" if poll.words == 1 else f"{poll.words} words"
+    return f"{count} from {address_text(poll.address)}"
 
 
 def _identified(ask: Ask, drive: Drive, unit: int, identity: Identity, read: Poll) -> Judgement:
