@@ -171,31 +171,23 @@ class Line:
         """At 9,600 bit/s 8N1."""
         self.clock: Clock = Strides(self)
         self.peers, self.fate, self.chance = [*peers], fate, Random(seed)
-        self.way = self.tuned = Way(9600)
         self.asked = self.hurt = self.replies = 0
         """Requests, those of which request or reply was damaged, and replies."""
-        self.last_us = 0
-        """When a character of a unit was last handed over."""
-        self.gone_us: int | None = None
-        """From then on the cable is out."""
         self.bodies: set[int] = set()
         """Functions that were sent."""
-        self._come: list[tuple[float, int, int, bool]] = []
+        self._come: list[tuple[float, int, int]] = []
 
     def opened(self, way: Way) -> "Line":
-        """For `PortLine`."""
-        self.tuned = way
+        """For `PortLine`, in any way."""
         return self
 
     def send(self, data: bytes) -> None:
         """A request."""
         now, fate = self.clock.now_us(), self.fate
-        if not data or (self.gone_us is not None and now >= self.gone_us):
-            return
         end, self.asked = now + len(data) * CHAR_US, self.asked + 1
         self.bodies.add(data[1])
         if fate.echo_us is not None:
-            self._put(now + fate.echo_us, data, mine=True)
+            self._put(now + fate.echo_us, data)
         heard = self._spoilt(data)
         hurt = heard != data
         for peer in self.peers:
@@ -224,17 +216,15 @@ class Line:
             return frame[:place]
         return frame[:place] + bytes([frame[place] ^ 1 << chance.randrange(8)]) + frame[place + 1 :]
 
-    def _put(self, begin: int, data: bytes, *, mine: bool = False) -> None:
+    def _put(self, begin: int, data: bytes) -> None:
         for place, byte in enumerate(data, 1):
-            heappush(self._come, (begin + place * CHAR_US, len(self._come), byte, mine))
+            heappush(self._come, (begin + place * CHAR_US, len(self._come), byte))
 
     def receive(self) -> bytes:
         """Characters that have ended."""
         now, found = self.clock.now_us(), bytearray()
         while self._come and self._come[0][0] <= now:
-            _, _, byte, mine = heappop(self._come)
-            found.append(byte)
-            self.last_us = self.last_us if mine else now
+            found.append(heappop(self._come)[2])
         return bytes(found)
 
     def close(self) -> None:
@@ -248,7 +238,7 @@ class Line:
     @property
     def is_whole(self) -> bool:
         """Whether all that is under way has ended."""
-        return max(self._come, default=(0, 0))[0] <= self.clock.now_us()
+        return max(self._come, default=(0,))[0] <= self.clock.now_us()
 
     @property
     def share(self) -> float:
@@ -267,7 +257,8 @@ def served(peers: Iterable[Peer], fate: Fate, seed: int) -> Iterator[str]:
         come.settimeout(0.001)
         while not over.is_set():
             with suppress(TimeoutError, OSError):
-                line.send(come.recv(4096))
+                if asked := come.recv(4096):
+                    line.send(asked)
             if line.is_whole:
                 with suppress(OSError):
                     come.sendall(line.receive())
