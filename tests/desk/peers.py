@@ -177,7 +177,7 @@ class Line:
         """Functions that were sent."""
         self._come: list[tuple[float, int, int]] = []
 
-    def opened(self, way: Way) -> "Line":
+    def opened(self, _: Way) -> "Line":
         """For `PortLine`, in any way."""
         return self
 
