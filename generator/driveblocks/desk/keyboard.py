@@ -4,7 +4,7 @@ import os
 from collections.abc import Callable
 
 from driveblocks.desk.script import Setting, setting
-from structured_text.engines.engine import Instance, Value
+from structured_text.engines.engine import Instance
 
 
 class Keyboard:
@@ -58,10 +58,8 @@ def typed(line: str, inputs: tuple[str, ...], program: Instance) -> Setting:
         if not 1 <= int(word) <= len(inputs):
             raise ValueError(f"there is no input {word}; write NAME := VALUE")
         word = inputs[int(word) - 1]
-    try:
-        old: Value = program[word]
-    except KeyError:
-        raise ValueError(f"the program has no variable {word}") from None
-    if not isinstance(old, bool):
+    if not is_variable(word, program):
+        raise ValueError(f"the program has no variable {word}")
+    if not isinstance(program[word], bool):
         raise ValueError(f"{word} is no BOOL; write {word} := VALUE")
-    return Setting(word, not old)
+    return Setting(word, not program[word])

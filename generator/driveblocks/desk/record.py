@@ -78,7 +78,8 @@ class Timing:
         return self._left + _PLOT * at_us / self._end_us
 
     def _grid(self, height: int) -> list[str]:
-        step = next(each for each in _steps() if self._end_us / each <= 12)
+        steps = (digit * 10**power for power in range(4, 16) for digit in (1, 2, 5))
+        step = next(each for each in steps if self._end_us / each <= 12)
         parts = []
         for at in range(0, self._end_us + 1, step):
             x = self._x(at)
@@ -103,7 +104,3 @@ class Timing:
             f'<text x="{self._left - 6}" y="{top + 16}" text-anchor="end">{most}</text>',
             f'<polyline fill="none" stroke="#05c" stroke-width="1.5" points="{" ".join(points)}"/>',
         ]
-
-
-def _steps() -> Sequence[int]:
-    return [digit * 10**power for power in range(4, 16) for digit in (1, 2, 5)]

@@ -72,7 +72,8 @@ VERBS = (
     Verb("stop", UNIT, "stop 2", "somebody stops it at the keypad", lambda drive, _: drive.keypad_stop()),
     Verb("load", PERCENT + UNIT, "load 80 % 2", "the motor's load",
          lambda drive, words: setattr(drive, "load", round(float(words["percent"] or 0)))),
-    Verb("late", rf" (?P<late>{TIME}){LASTS}{UNIT}", "late 80 ms for 5 s 2", "replies begin this long after a request"),
+    Verb("late", rf" (?P<late>{TIME}){LASTS}{UNIT}", "late 80 ms for 5 s 2", "replies begin this long after a request",
+         lambda drive, words: setattr(drive, "turn_us", duration_us(words["late"] or ""))),
     Verb("drop", PERCENT + LASTS, "drop 10 % for 5 s", "this share of all frames, both ways, is lost"),
     Verb("damage", PERCENT + LASTS, "damage 1 %", "this share of all frames arrives with a wrong bit"),
 )  # fmt: skip
@@ -155,23 +156,19 @@ class _Step:
             self._wrong(value, verb.word, f"{words['percent']} % is more than all", "write 0 % to 100 %")
         if not units or percent > 100:
             return
-        ends = self._at_us + duration_us(words.get("lasts") or "0 s")
-        lasts = words.get("lasts") is not None
+        does = verb.does
+        usual = f"late {Habits.turn_us / 1000:g} ms" + (f" {words['unit']}" if words.get("unit") else "")
+        end = _each(units, lambda drive: setattr(drive, "turn_us", Habits.turn_us))
         if verb.word in ("drop", "damage"):
-            yield Happening(self._at_us, value.text, _loses(verb.word, percent / 100))
-            if lasts:
-                yield Happening(ends, f"{verb.word} 0 %", _loses(verb.word, 0.0))
-        elif verb.word == "late":
-            yield Happening(self._at_us, value.text, _each(units, _turn(duration_us(words["late"] or ""))))
-            if lasts:
-                usual = f"late {Habits.turn_us / 1000:g} ms" + (f" {words['unit']}" if words["unit"] else "")
-                yield Happening(ends, usual, _each(units, _turn(Habits.turn_us)))
-        elif verb.does is None:
+            act, end, usual = _loses(verb.word, percent / 100), _loses(verb.word, 0.0), f"{verb.word} 0 %"
+        elif does is None:
             codes = self._codes(value, words["fault"] or "", units)
-            yield Happening(self._at_us, value.text, _each(units, lambda drive: drive.trip(codes[drive.unit])))
+            act = _each(units, lambda drive: drive.trip(codes[drive.unit]))
         else:
-            does = verb.does
-            yield Happening(self._at_us, value.text, _each(units, lambda drive: does(drive, words)))
+            act = _each(units, lambda drive: does(drive, words))
+        yield Happening(self._at_us, value.text, act)
+        if lasts := words.get("lasts"):
+            yield Happening(self._at_us + duration_us(lasts), usual, end)
 
     def _units(self, value: Scalar, words: Words) -> tuple[int, ...]:
         named = words.get("unit")
@@ -219,19 +216,16 @@ def _each(units: tuple[int, ...], does: Callable[[SimulatedDrive], object]) -> A
     return act
 
 
-def _turn(us: int) -> Callable[[SimulatedDrive], None]:
-    return lambda drive: setattr(drive, "turn_us", us)
-
-
 def _loses(name: str, share: float) -> Act:
     return lambda _, loss: setattr(loss, name, share)
 
 
 def schema() -> str:
     """The JSON Schema (draft 7) of scenarios, for editors."""
+    nameless = {verb: re.sub(r"\?P<\w+>", "", verb.rest) for verb in VERBS}  # as its regular expressions are
     steps = [
-        {"pattern": f"^{verb.word}{_plain(verb.rest)}$", "description": f"{verb.means}: {verb.sample}"}
-        for verb in VERBS
+        {"pattern": f"^{verb.word}{rest}$", "description": f"{verb.means}: {verb.sample}"}
+        for verb, rest in nameless.items()
     ]
     step = {
         "type": "object",
@@ -241,8 +235,3 @@ def schema() -> str:
     }
     head = {"$schema": "http://json-schema.org/draft-07/schema#", "title": "DriveBlocks scenario"}
     return json.dumps({**head, "type": "array", "minItems": 1, "items": step}, indent=1) + "\n"
-
-
-def _plain(pattern: str) -> str:
-    """JSON Schema's regular expressions have no names."""
-    return re.sub(r"\?P<\w+>", "", pattern)

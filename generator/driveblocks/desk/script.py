@@ -92,11 +92,8 @@ def setting(text: str, program: Instance, at_us: int = 0) -> Setting:
     except KeyError:
         raise ValueError(f"the program has no variable {name}") from None
     value = _value(found["value"], old, name)
-    try:
-        program[name] = value
-        program[name] = old
-    except ValueError as error:
-        raise ValueError(str(error)) from None
+    program[name] = value
+    program[name] = old
     return Setting(name, value, at_us)
 
 

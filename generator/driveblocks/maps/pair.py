@@ -6,9 +6,6 @@ from typing import Any
 
 from driveblocks.maps.model import Condition, Drive, Register
 
-REAL_BITS = 24
-"""Bits of a number that a REAL holds (IEC 60559, binary32): a larger one is rounded where it is shown."""
-
 
 def words(row: Register, value: int) -> tuple[int, int]:
     high, low = value >> 16 & 0xFFFF, value & 0xFFFF

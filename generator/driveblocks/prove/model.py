@@ -77,10 +77,9 @@ class Model:
         return ((path, term) for path, term in self.before.items() if re.split(r"[.\[]", path)[0] not in shared)
 
     def _observe(self, now: Store, before: Store) -> Store:
-        terms = Terms(
-            now | {f"WAS.{path}": term for path, term in before.items()} | _unset(self.subject),
-            exact=self.subject.exact,
-        )
+        was = {f"WAS.{path}": term for path, term in before.items()}
+        unset = {name.upper(): z3.BoolVal(False) for name in self.subject.conditions()}
+        terms = Terms(now | was | unset, exact=self.subject.exact)
         terms.block(self.checked.blocks[observer.name(self.pou).upper()], "", {})
         return {name: terms.store[name.upper()] for name in self.subject.conditions()}
 
@@ -93,10 +92,6 @@ class Model:
             return shared | {path[len(prefix) :]: term for path, term in store.items() if path.startswith(prefix)}
 
         return replace(other, before=below(self.before), inputs=below(self.after), after=below(self.after))
-
-
-def _unset(subject: Subject) -> Store:
-    return {name.upper(): z3.BoolVal(False) for name in subject.conditions()}
 
 
 def in_outs(pou: Pou) -> set[str]:

@@ -123,7 +123,7 @@ def _write(machine: Machine, first: int, words: list[int]) -> None:
         if not inside(table.writable, address):
             raise Refused("read_only" if inside(table.readable, address) else "address")
     for limit in table.limits:
-        if limit.register in addresses and not _fits(_number(machine, addresses, words, limit), limit):
+        if limit.register in addresses and not limit.low <= _number(machine, addresses, words, limit) <= limit.high:
             raise Refused("value")
     parameters = any(memory.parameter(address) for address in addresses)
     if (parameters or machine.habits.busy_refuses_all) and machine.now < machine.busy_until:
@@ -144,10 +144,6 @@ def _number(machine: Machine, addresses: range, words: list[int], limit: Limit) 
         high = words[limit.above - addresses[0]] if limit.above in addresses else machine.memory[limit.above]
         word, bits = word | high << 16, 32
     return word - (1 << bits) if limit.signed and word >> bits - 1 else word
-
-
-def _fits(number: int, limit: Limit) -> bool:
-    return limit.low <= number <= limit.high
 
 
 def _refuse(machine: Machine, reason: str) -> None:

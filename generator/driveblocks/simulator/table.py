@@ -5,10 +5,9 @@ from dataclasses import dataclass
 from decimal import Decimal
 from fractions import Fraction
 from functools import lru_cache
-from typing import get_args
 
 from driveblocks.maps.form import Span
-from driveblocks.maps.model import Drive, Measure, Reference
+from driveblocks.maps.model import Drive, Reference
 from driveblocks.maps.pair import places, whole
 from driveblocks.maps.plan import Words, dialect, most, plan
 from driveblocks.modbus.layout import Dialect
@@ -19,8 +18,6 @@ from driveblocks.simulator.move import Move, moves
 from driveblocks.simulator.pattern import WORD, Pattern, of_condition, of_write
 from driveblocks.simulator.plate import plate
 from driveblocks.simulator.refusal import codes, refuses_beyond
-
-MEASURES = get_args(Measure)
 
 MOST_TIMES = 32_000
 """Largest numerator of a reference: a word times it has 32 bits."""
@@ -199,7 +196,7 @@ def _gauges(drive: Drive, habits: Habits) -> tuple[Gauge, ...]:
 
 def _gauge(drive: Drive, habits: Habits, register: int, shows: str) -> Gauge:
     row = drive.register_at(register)
-    milli, signed = _milli(_factor(drive, habits, register)), bool(row and row.signed)
+    milli, signed = max(1, int(1000 * _factor(drive, habits, register))), bool(row and row.signed)
     if row is None or row.words is None:
         return Gauge(register, shows, milli, signed)
     high = register == places(row, whole(drive, register)[0])[0]
@@ -210,10 +207,6 @@ def _factor(drive: Drive, habits: Habits, register: int) -> Decimal:
     row = drive.register_at(register)
     scale = row.scale.factor if row and row.scale else habits.scale
     return habits.scales.get(register, scale)
-
-
-def _milli(factor: Decimal) -> int:
-    return max(1, int(1000 * factor))
 
 
 def _limits(drive: Drive) -> tuple[Limit, ...]:

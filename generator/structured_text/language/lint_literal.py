@@ -59,13 +59,8 @@ def _string(scope: Scope, value: Literal) -> None:
     if _loses_bytes(value.text):
         text = "matiec's C reads the digit or letter after $xx into the escape: escape it too ('$96$33')"
         scope.add(value.at, "string-escape", text)
-    if "$L" in _escapes(value.text):
+    if "$L" in map(str.upper, _ESCAPED.findall(value.text)):
         scope.add(value.at, "string-escape", "matiec writes C that does not compile for $L: write $N or $0A")
-
-
-def _escapes(text: str) -> list[str]:
-    """The escapes of a string in upper case."""
-    return [each.upper() for each in _ESCAPED.findall(text)]
 
 
 def _loses_bytes(text: str) -> bool:

@@ -134,7 +134,8 @@ class Resolver:
         if upper in BLOCKS:
             return BLOCKS[upper]
         hint = nearest(spec.name, self.library.type_names())
-        what = "expected the name of a type" if found is None else f"expected a type, found the {_word(found)}"
+        kind = type(found).__name__.lower()
+        what = "expected the name of a type" if found is None else f"expected a type, found the {kind}"
         self.report.add(spec.at, "unknown-type", f"{what}{' ' if found else ', found '}{spec.name}{hint}")
         return UNKNOWN
 
@@ -244,8 +245,3 @@ class Resolver:
             return base
         shown = name or f"{base.name} ({low}..{high})"
         return Subrange(shown, base.kind, base.width, base.signed, base=base, first=low, last=high)
-
-
-def _word(found: object) -> str:
-    """How a message names what is no type."""
-    return type(found).__name__.lower()

@@ -27,7 +27,8 @@ def read(lines: Lines) -> bytes | None:
         if behind is None:
             wrong = f"this line does not start with the offset {len(data):04X}"
             raise Spot(place, wrong, "paste the dump's lines as they were printed, without gaps")
-        data += _body(line[behind:], place + behind)
+        end, _ = _split(line[behind:])
+        data += hexadecimal.read(line[behind : behind + end], place + behind)
     return bytes(data)
 
 
@@ -58,11 +59,6 @@ def _columns(lines: Lines) -> bytes | None:
     if not any(column for _, column in found):
         return None
     return b"".join(hexadecimal.read(line[:end], place) for (place, line), (end, _) in zip(lines, found, strict=True))
-
-
-def _body(line: str, place: int) -> bytes:
-    end, _ = _split(line)
-    return hexadecimal.read(line[:end], place)
 
 
 def _split(line: str) -> tuple[int, bool]:

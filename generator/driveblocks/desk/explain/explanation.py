@@ -168,7 +168,8 @@ class Explainer:
             if not made.good and (piece.data == before[1] or before[1] != sent):
                 made = self._explained(piece.data, None, None)
             if made.good and made.asked is None and made.readings[0].direction == "request":
-                before = _as_asked(made, self.dialect)
+                one = layout.take(made.wire.body, "request", self.dialect)
+                before = asked_by(one, ascii_mode=made.wire.mode == "ascii"), made.wire.frame
             inside.append(made)
         echo = any(one.good and one.asked == inside[0].wire.frame for one in inside[1:])
         wrong = _glue(pieces, inside[0].wire.frame if echo else None)
@@ -187,11 +188,6 @@ class Explainer:
             elif frame.printed == made.wire.frame:
                 found.append(f"The manual prints its example {frame.id} like this, with a wrong checksum.")
         return tuple(found)
-
-
-def _as_asked(made: Explanation, dialect: Dialect) -> tuple[Asked, bytes]:
-    one = layout.take(made.wire.body, "request", dialect)
-    return asked_by(one, ascii_mode=made.wire.mode == "ascii"), made.wire.frame
 
 
 def _least_wrong(found: tuple[Reading, ...]) -> tuple[Reading, ...]:

@@ -10,7 +10,7 @@ from rich.text import Text
 from driveblocks.desk.explain.explanation import Explanation
 from driveblocks.desk.explain.guess import LONGEST, shown
 from driveblocks.desk.explain.meaning import Held, Line
-from driveblocks.desk.explain.reading import Field, Reading, Wrong
+from driveblocks.desk.explain.reading import Field, Reading
 from driveblocks.maps.form import address_text
 from driveblocks.maps.model import Drive
 from driveblocks.maps.view import title
@@ -22,7 +22,8 @@ def pages(made: Explanation, drive: Drive | None) -> Iterator[RenderableType]:
     yield _verdict(made)
     yield Padding(facts(*_facts(made, drive)), (0, 0, 0, 2))
     for wrong in made.all_wrongs:
-        yield from _wrong(wrong)
+        lines = facts(("wrong", Text(wrong.what, style="bold")), *(("perhaps", each) for each in wrong.instead))
+        yield Padding(lines, (0, 0, 0, 2))
     yield from _readings(made)
     for note in made.notes:
         yield f"\nNote: {note}"
@@ -85,11 +86,6 @@ def _facts(made: Explanation, drive: Drive | None) -> Iterator[tuple[str, str]]:
         yield "request", asked
     if drive is not None:
         yield "drive", title(drive)
-
-
-def _wrong(wrong: Wrong) -> Iterator[RenderableType]:
-    lines = facts(("wrong", Text(wrong.what, style="bold")), *(("perhaps", instead) for instead in wrong.instead))
-    yield Padding(lines, (0, 0, 0, 2))
 
 
 def _readings(made: Explanation) -> Iterator[RenderableType]:

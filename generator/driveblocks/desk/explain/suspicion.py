@@ -26,7 +26,9 @@ def wrongs(drive: Drive | None, one: Layout, *, ascii_mode: bool) -> Iterator[To
     elif one.function in (*READS, 6, 8, 16) and not one.refusal:
         yield from _request(drive, one, ascii_mode)
     if one.direction == "reply" and one.function in READS and not one.refusal:
-        yield from _many(drive, one, ascii_mode)
+        limit = most(drive, "ascii" if ascii_mode else "rtu").read
+        if len(one.words) > limit:
+            yield f"{len(one.words)} registers are more than {drive.prefix} sends at once: {limit}", ""
 
 
 def _unit(drive: Drive | None, one: Layout) -> Iterator[Told]:
@@ -104,12 +106,6 @@ def _quantity(drive: Drive, asked: Asked) -> Iterator[Told]:
         if not 1 <= asked.quantity <= limit:
             wrong = f"quantity {asked.quantity} is out of range: 1 to {limit}{named}"
             yield wrong, _swapped(asked.quantity, limit)
-
-
-def _many(drive: Drive, one: Layout, ascii_mode: bool) -> Iterator[Told]:
-    limit = most(drive, "ascii" if ascii_mode else "rtu").read
-    if len(one.words) > limit:
-        yield f"{len(one.words)} registers are more than {drive.prefix} sends at once: {limit}", ""
 
 
 def _address(drive: Drive, asked: Asked, readable: frozenset[int], writable: frozenset[int]) -> Iterator[Told]:

@@ -53,7 +53,8 @@ class Named:
 
     def made(self, *, ascii_mode: bool) -> SimulatedDrive:
         places = open_scales(self.drive)
-        scales = {places[name]: _factor(name, number) for name, number in self.scales}
+        counts = {name: Decimal(number) for name, number in self.scales}
+        scales = {places[name]: 1 / each if name == REFERENCE else each for name, each in counts.items()}
         return SimulatedDrive(
             self.drive, self.unit, Habits(maximum_hz=self.maximum_hz, scales=scales), ascii_mode=ascii_mode
         )
@@ -130,15 +131,12 @@ def _facts(drive: Drive, one: Word, option: str) -> tuple[int, dict[str, str]]:
         wrong = f"{option}{one.name}: `{fact}`"
         if name in given:
             raise Refused(f"{wrong} comes after another one; write one of them")
-        (_judge_scale if is_scale else _judge_maximum)(drive, name, number, wrong)
+        if is_scale:
+            _judge_scale(drive, name, number, wrong)
+        elif not re.fullmatch("[0-9]{1,3}", number) or not 1 <= int(number) <= HIGHEST_HZ:
+            raise Refused(f"{wrong} is no maximum; write whole Hz, 1 to {HIGHEST_HZ}, such as :{FACTORY_HZ}")
         given[name] = number
     return int(given.pop("", FACTORY_HZ)), given
-
-
-def _judge_maximum(_: Drive, __: str, number: str, wrong: str) -> None:
-    """Raises Refused for a maximum that is none."""
-    if not re.fullmatch("[0-9]{1,3}", number) or not 1 <= int(number) <= HIGHEST_HZ:
-        raise Refused(f"{wrong} is no maximum; write whole Hz, 1 to {HIGHEST_HZ}, such as :{FACTORY_HZ}")
 
 
 def _judge_scale(drive: Drive, name: str, number: str, wrong: str) -> None:
@@ -155,8 +153,3 @@ def _judge_scale(drive: Drive, name: str, number: str, wrong: str) -> None:
 
 def _usual(name: str) -> str:
     return COUNTS_PER_HERTZ if name == REFERENCE else PER_COUNT
-
-
-def _factor(name: str, number: str) -> Decimal:
-    """Units per count."""
-    return 1 / Decimal(number) if name == REFERENCE else Decimal(number)

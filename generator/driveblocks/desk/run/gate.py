@@ -24,7 +24,7 @@ class Gate:
 
     def __init__(self, port: Port, clock: Clock) -> None:
         self.port = port
-        self.late_ms = port.late_ms
+        self.late_ms, self.close = port.late_ms, port.close
         self.sent = b""
         """The last frame of the program."""
         self.heard = b""
@@ -54,9 +54,6 @@ class Gate:
             if data:
                 self.heard, self.heard_us = (self.heard + data)[-MOST_HEARD:], self._clock.now_us()
             return data
-
-    def close(self) -> None:
-        self.port.close()
 
     def check(self) -> None:
         """Raise GivenUp if the port was taken."""

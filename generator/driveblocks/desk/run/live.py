@@ -34,7 +34,11 @@ def run(
         try:
             if keyboard is not None:
                 _listen_to(keyboard, session, end_of_input=end_of_input)
-            _watch(session, screen, watch)
+            while watch.is_alive():
+                watch.join(LOOK_S)
+                tell(session, screen)
+                if session.view is not None:
+                    screen.show(session.view)
         except BaseException as error:  # a lost terminal must not leave drives running
             session.ending.ask(f"the screen has failed: {error or type(error).__name__}", alone=True)
         finally:
@@ -82,14 +86,6 @@ def _beside(work: Callable[[], object]) -> threading.Thread:
     thread = threading.Thread(target=work, daemon=True)
     thread.start()
     return thread
-
-
-def _watch(session: Session, screen: Screen, watch: threading.Thread) -> None:
-    while watch.is_alive():
-        watch.join(LOOK_S)
-        tell(session, screen)
-        if session.view is not None:
-            screen.show(session.view)
 
 
 def tell(session: Session, screen: Screen) -> None:

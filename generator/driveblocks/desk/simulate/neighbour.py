@@ -67,7 +67,8 @@ class Neighbours:
     def _asked(self, unit: int, *, busy: bool) -> bool:
         """Whether a unit answers a read; on a line that was quiet, anything that comes is an answer."""
         self._wait_for_silence()
-        question = seal(self._mode, _question(unit, self._drives[unit]))
+        first = plan(self._drives[unit]).readable[0].first
+        question = seal(self._mode, read_request(unit, self._drives[unit], Span(first, first)))
         self._link.send(question)
         heard = self._heard(REPLY_US)
         if heard.startswith(question):
@@ -79,12 +80,6 @@ class Neighbours:
         end = self._clock.now_us() + MOST_WAIT_US
         while self._heard(QUIET_US) and self._clock.now_us() < end:
             pass
-
-
-def _question(unit: int, drive: Drive) -> bytes:
-    """A read of one word that the map knows."""
-    first = plan(drive).readable[0].first
-    return read_request(unit, drive, Span(first, first))
 
 
 def _refusal(unit: int) -> str:

@@ -14,6 +14,7 @@ from driveblocks.desk.ending import Ending, listening
 from driveblocks.desk.port import Port, serial_port
 from driveblocks.desk.run.drives import named
 from driveblocks.desk.run.drives import words as drives_of
+from driveblocks.desk.run.play import Play
 from driveblocks.desk.screen import Heading, Lines, LiveTable, Screen
 from driveblocks.desk.simulate.link import HOST, PtyLink, TcpLink, WithoutEcho
 from driveblocks.desk.simulate.neighbour import Neighbours
@@ -56,7 +57,7 @@ class Setup:
         self._clock, self._ending = RealClock(), Ending()
         wanted = named(drives_of(words.drives), map_of)
         self.maps = {one.unit: one.drive for one in wanted}
-        self._happenings = scenario.read(words.scenario, self.maps) if words.scenario else []
+        self._play = Play(self.maps, scenario.read(words.scenario, self.maps) if words.scenario else ())
         drives = [one.made(ascii_mode=words.ascii) for one in wanted]
         self._settings = [line for one in wanted for line in one.told()]
         bits = 1 + int(words.form[0]) + (words.form[1] != "N") + int(words.form[2])
@@ -93,7 +94,7 @@ class Setup:
             stack.callback(screen.close)
             for line in (self._told(place), *self._settings):
                 self._sayer(screen)(line)
-            Stand(self._bus, link, self._clock, self._ending, self._happenings).run(
+            Stand(self._bus, link, self._clock, self._ending, self._play).run(
                 self._sayer(screen), self._looker(screen), self._for_us
             )
             self._looker(screen)(self._clock.now_us() - self._begun_us)

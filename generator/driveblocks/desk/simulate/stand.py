@@ -1,12 +1,12 @@
 """Simulated drives that serve a master in real time, what happens to them, and what is to be seen."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 
 from driveblocks.desk.bus import Bus
 from driveblocks.desk.clock import Clock
 from driveblocks.desk.ending import Ending
 from driveblocks.desk.port import Port
-from driveblocks.desk.scenario import Happening
+from driveblocks.desk.run.play import Play
 from driveblocks.desk.seen import Seen, View
 from driveblocks.maps.model import Drive
 from driveblocks.simulator.drive import SimulatedDrive
@@ -19,33 +19,30 @@ TICK_US = 1_000
 class Stand:
     """Drives on a bus, and a link to a master."""
 
-    def __init__(self, bus: Bus, link: Port, clock: Clock, ending: Ending, scenario: Sequence[Happening] = ()) -> None:
+    def __init__(self, bus: Bus, link: Port, clock: Clock, ending: Ending, play: Play | None = None) -> None:
         self.bus, self.link = bus, link
         self._clock, self._ending = clock, ending
-        self._waiting = list(scenario)
-        self._error = ""
+        self._play = play or Play({})
+        self._play.act = lambda happening: happening.act(bus.drives, bus.loss)
 
     def run(self, say: Callable[[str], None], look: Callable[[int], None], for_us: int | None = None) -> None:
         """Serve until the end; `say` takes what happens, `look` the time every now and then."""
         begun = self._clock.now_us()
-        looked = -LOOK_US
+        looked, error = -LOOK_US, ""
         while not self._ending.reason:
             now = self._clock.now_us() - begun
             if for_us is not None and now >= for_us:
                 self._ending.ask(f"{for_us / 1e6:g} s are over")
-            self._happen(now, say)
+            for says in self._play.due(now):
+                say(f"{now / 1e6:5.1f} s  {says}")
             self._pass_bytes(now)
             if now - looked >= LOOK_US:
                 looked = now
-                self._tell_port(say)
+                if self.link.error != error:
+                    error = self.link.error
+                    say(f"the port does not work: {error}" if error else "the port works again")
                 look(now)
             self._clock.sleep_until(begun + now + TICK_US)
-
-    def _happen(self, now_us: int, say: Callable[[str], None]) -> None:
-        while self._waiting and self._waiting[0].at_us <= now_us:
-            happening = self._waiting.pop(0)
-            say(f"{now_us / 1e6:5.1f} s  {happening.says}")
-            happening.act(self.bus.drives, self.bus.loss)
 
     def _pass_bytes(self, now_us: int) -> None:
         data = self.link.receive()
@@ -54,11 +51,6 @@ class Stand:
         reply = self.bus.receive(now_us)
         if reply:
             self.link.send(reply)
-
-    def _tell_port(self, say: Callable[[str], None]) -> None:
-        if self.link.error != self._error:
-            self._error = self.link.error
-            say(f"the port does not work: {self._error}" if self._error else "the port works again")
 
 
 def view(bus: Bus, maps: Mapping[int, Drive], at_us: int, *, counted: bool) -> View:

@@ -78,7 +78,9 @@ def run(words: Words, clock: Clock | None = None) -> tuple[Way | None, Exchanges
         raise Refused("\n".join(wrong))
     clock, traffic = clock or RealClock(), Exchanges(*drives)
     with ExitStack() as stack:
-        ear = _opened(words)
+        with opening(str(words.port or words.tcp)):
+            ear = SerialEar(words.port) if words.port is not None else TcpEar(*adapter.host_and_port(words.tcp))
+            ear.tune(words.tried[0])
         stack.callback(ear.close)
         log, table = (_kept(path, stack) for path in (words.log, words.csv))
         table.write(_row(overheard.COLUMNS))
@@ -117,13 +119,6 @@ def _drives(names: Sequence[str], wrong: list[str]) -> tuple[dict[int, Drive], D
         else:
             anyone = drive
     return found, anyone
-
-
-def _opened(words: Words) -> Ear:
-    with opening(str(words.port or words.tcp)):
-        ear: Ear = SerialEar(words.port) if words.port is not None else TcpEar(*adapter.host_and_port(words.tcp))
-        ear.tune(words.tried[0])
-    return ear
 
 
 class File:

@@ -87,7 +87,8 @@ def _odd(number: int, unit: Unit, traffic: Exchanges) -> Iterator[tuple[str, str
         )
     for key, poll in unit.polls.items():
         if poll.refusals:
-            yield "refused", f"unit {number} refused {_what(key)} {poll.refusals} of {poll.count} times"
+            what = f"{key[0]:02X}H at {_where(key)}"
+            yield "refused", f"unit {number} refused {what} {poll.refusals} of {poll.count} times"
 
 
 def _line(way: Way, traffic: Exchanges) -> Iterator[tuple[str, object]]:
@@ -126,10 +127,6 @@ def _words(number: int, key: Key, poll: Poll, traffic: Exchanges) -> Iterator[st
 
 def _times(count: int) -> str:
     return "once" if count == 1 else f"{count} times"
-
-
-def _what(key: Key) -> str:
-    return f"{key[0]:02X}H at {_where(key)}"
 
 
 def _where(key: Key) -> str:

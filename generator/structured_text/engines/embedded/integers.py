@@ -93,11 +93,6 @@ def rotate_left(number: int, places: int, width: int) -> int:
     return ((number << places) | (number >> (width - places))) & ((1 << width) - 1)
 
 
-def rotate_right(number: int, places: int, width: int) -> int:
-    """ROR; negative places turn the other way."""
-    return rotate_left(number, -places, width)
-
-
 def careful_rotate_left(number: int, places: int, width: int) -> int:
     """ROL; the standard makes negative places an error. FaultError."""
     if places < 0:

@@ -46,7 +46,7 @@ def invoke(scope: Scope, call: tree.Call, block: Block) -> list[ast.stmt]:
     before += _no_aliases(scope, in_outs)
     for binding in call.bindings:
         before += _input(scope, binding, instance)
-    before += [_hand_over(scope, each) for each in in_outs]
+    before += [scope.pen.assign(each.theirs, each.mine) for each in in_outs]
     scope.pen.move(call.at)
     run = _run(scope, call, block, instance)
     after = [each for in_out in in_outs for each in _hand_back(scope, in_out)]
@@ -121,10 +121,6 @@ def _settled(scope: Scope, place: ast.expr, before: list[ast.stmt]) -> ast.expr:
     before.append(pen.assign(pen.name(name), place.value))
     before.append(pen.assign(pen.name(index), place.slice))
     return ast.Subscript(pen.name(name), pen.name(index), ast.Load(), **place_of(place))
-
-
-def _hand_over(scope: Scope, in_out: _InOut) -> ast.stmt:
-    return scope.pen.assign(in_out.theirs, in_out.mine)
 
 
 def _hand_back(scope: Scope, in_out: _InOut) -> list[ast.stmt]:

@@ -83,7 +83,7 @@ def settle(report: Report, value: Expression, wanted: Type) -> None:
         if untyped(value.type):
             settle(report, value, default(value))
         return
-    if not _takes(wanted, value):
+    if _misfit(value, wanted) is not None:
         _unsuitable(report, value, wanted)
         return
     push(report, value, wanted)
@@ -108,11 +108,6 @@ def _unsuitable(report: Report, value: Expression, wanted: Type) -> None:
     else:
         report.add(culprit.at, "type-mismatch", f"expected {wanted}, found {culprit.type}")
     push(report, value, default(value))
-
-
-def _takes(wanted: Type, value: Expression) -> bool:
-    """Whether a number without prefix can be of this type at all."""
-    return _misfit(value, wanted) is None
 
 
 def _misfit(value: Expression, wanted: Type) -> Expression | None:
