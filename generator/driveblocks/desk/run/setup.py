@@ -28,9 +28,7 @@ from driveblocks.desk.run.watchdog import FIRST_US, LIMIT_US, Watchdog
 from driveblocks.desk.screen import Desk, Heading, Lines, LiveTable, Screen
 from driveblocks.desk.words import LOOPBACK, opening, time
 from driveblocks.maps import catalog
-from driveblocks.maps.collection import Source as Map
 from driveblocks.maps.problem import Refused
-from driveblocks.simulator.drive import SimulatedDrive
 from structured_text import files
 from structured_text.visible import file_name
 
@@ -66,7 +64,7 @@ class Setup:
         self._path = demo.path() if options.demo else options.program or Path()
         if console.terminal().is_terminal:
             console.write(f"{self.label}  compiling {file_name(self._path.name)}")
-        self._maps = _maps(options)
+        self._maps = source.asked(options.maps, [one.name for one in words(options.simulate)])
         name = file_name(catalog.shown(self._path))
         self._loaded = probe.compiled(name, files.text(self._path), self._maps, options.name)
         self.probe = probe.probed(self._loaded, self._scan_us, max(FIRST_US, self._watchdog_us))
@@ -114,15 +112,9 @@ class Setup:
 
     def _simulates(self) -> list[Named]:
         """The drives that are named, else those of the program. Raises Refused."""
-        known = {each.path.resolve(): (each.path, each.drive) for each in self._maps}
         if not self._options.simulate:
-            return list(of_program(self.probe, tuple(known.values())))
-        paths = [path for path, _ in known.values()]
-        return named(
-            words(self._options.simulate),
-            lambda name: known[catalog.displacing(catalog.resolve(name), paths).resolve()],
-            "--simulate ",
-        )
+            return list(of_program(self.probe, [(each.path, each.drive) for each in self._maps]))
+        return named(words(self._options.simulate), lambda name: source.meant(name, self._maps), "--simulate ")
 
     def _simulated(self) -> Port:
         rate, bits, ascii_mode = self._line("BitRate"), self._line("CharacterBits"), bool(self._line("Ascii"))
@@ -131,7 +123,10 @@ class Setup:
         if isinstance(self._clock, VirtualClock) or self._options.demo:
             drives = [one.made(ascii_mode=ascii_mode) for one in self._drives]
             if self._options.demo:
-                self._show(drives)
+                for drive in drives:
+                    drive.habits = replace(drive.habits, ramp=demo.RAMP, coast_ramp=demo.COAST)
+                self._demo = demo.Demo(self._session, drives[-1])
+                self._session.steps.append(self._demo.step)
             bus = Bus(drives, rate, bits, ascii_mode=ascii_mode)
             self._acts(lambda happening: bus.happen(happening.act, self._clock.now_us()))
             return WirePort(bus, self._clock)
@@ -151,12 +146,6 @@ class Setup:
         if self._session.play is not None:
             self._session.play.act = act
 
-    def _show(self, drives: list[SimulatedDrive]) -> None:
-        for drive in drives:
-            drive.habits = replace(drive.habits, ramp=demo.RAMP, coast_ramp=demo.COAST)
-        self._demo = demo.Demo(self._session, drives[-1])
-        self._session.steps.append(self._demo.step)
-
     # ------------------------------------------------------------ the session
 
     @property
@@ -167,7 +156,9 @@ class Setup:
         controller = probe.controller(self._loaded, self._scan_us)
         session = Session(controller, self._clock, Ending(), self._scan_us)
         session.recorded = self._recorded(controller)
-        session.script, session.shown = self._script(controller), self._options.show
+        if path := self._options.script:
+            session.script = script.read(file_name(path), files.text(path), controller.instance)
+        session.shown = self._options.show
         session.known = self.probe
         session.watchdog = Watchdog(self._watchdog_us)
         session.settled = self._settled
@@ -198,10 +189,6 @@ class Setup:
         except OSError as error:
             raise Refused(f"{file_name(error.filename)}: {error.strerror}") from None
 
-    def _script(self, controller: Controller) -> list[script.Setting]:
-        path = self._options.script
-        return [] if path is None else script.read(file_name(path), files.text(path), controller.instance)
-
     # ------------------------------------------------------------ the run
 
     def run(self, free: frozenset[tuple[int, str]] = frozenset()) -> int:
@@ -216,6 +203,7 @@ class Setup:
 
     def _run(self, free: frozenset[tuple[int, str]]) -> int:
         suspend = self._session.ask_to_suspend if self._options.real else None
+        self._session.ending.alone = sys.stdin is None or not sys.stdin.isatty()
         with self._stack, listening(self._session.ending, suspend):
             opened = self._port()
             self._stack.callback(opened.close)
@@ -248,10 +236,9 @@ class Setup:
         return f"{self.label} {place}".strip()
 
     def _live(self, screen: Screen) -> Result:
-        person = sys.stdin is not None and sys.stdin.isatty()
-        self._session.ending.alone = not person
         keyboard = None if self._options.demo else self._keyboard
-        return live.run(self._session, screen, keyboard, self._for_us, end_of_input=self._options.real or person)
+        ends = self._options.real or not self._session.ending.alone
+        return live.run(self._session, screen, keyboard, self._for_us, end_of_input=ends)
 
     def _fast(self, screen: Screen) -> Result:
         session = self._session
@@ -314,9 +301,3 @@ def _stands(result: Result) -> Iterator[str]:
         yield f"stopped, and standstill read: {', '.join(result.stopped)}"
     for name, why in result.unconfirmed.items():
         yield f"NOT CONFIRMED: {name}: {why}. Go and look"
-
-
-def _maps(options: Options) -> list[Map]:
-    """The shipped maps, and those that are named. Raises Refused."""
-    named = [*options.maps, *(one.name for one in words(options.simulate) if catalog.is_path(one.name))]
-    return source.known([catalog.resolve(name) for name in named])

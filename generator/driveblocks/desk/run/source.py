@@ -65,6 +65,17 @@ def known(named: Sequence[Path] = ()) -> list[Map]:
     return collection.read(sorted(single.values(), key=lambda path: path.stem))
 
 
+def asked(named: Sequence[str], drives: Sequence[str]) -> list[Map]:
+    """The same in words of the command line; names of drives may be paths of maps, too. Raises Refused."""
+    return known([catalog.resolve(each) for each in (*named, *filter(catalog.is_path, drives))])
+
+
+def meant(name: str, maps: Sequence[Map]) -> tuple[Path, Drive]:
+    """The map that a name means, unless another takes its place. Raises UnknownDrive."""
+    one = catalog.displacing(catalog.resolve(name), [each.path for each in maps]).resolve()
+    return next((each.path, each.drive) for each in maps if each.path.resolve() == one)
+
+
 def needed(units: Sequence[Unit], maps: Sequence[Map]) -> list[Source]:
     """The files of the library that texts need, in their order, but for what they declare themselves."""
     own = {getattr(each, "name", "").upper() for unit in units for each in unit.elements}

@@ -14,7 +14,6 @@ from driveblocks.desk.site.line import CHARACTER_BITS, LEARNED_AFTER, PINS, SLOT
 from driveblocks.desk.words import time
 from driveblocks.maps import catalog
 from driveblocks.maps.collection import Source
-from driveblocks.maps.model import Drive
 from driveblocks.maps.plan import reply_delay
 from driveblocks.maps.polls import Poll, polls
 from driveblocks.maps.problem import Refused
@@ -97,15 +96,10 @@ def _wrong_words(words: Words) -> Iterator[str]:
             yield f"--device {count} is out of range; write 1 to 16 registers"
 
 
-def _is_program(words: Words) -> bool:
-    return any(each.lower().endswith(".st") for each in words.line)
-
-
 def _program(words: Words, watchdog: int, wrong: list[str]) -> tuple[str, str, list[Source]]:
     """Name and text of the program, and the maps; what is wrong is added to `wrong`."""
     try:
-        named = [catalog.resolve(each) for each in words.maps]
-        if _is_program(words):
+        if any(each.lower().endswith(".st") for each in words.line):
             if len(words.line) > 1:
                 wrong.append("name one program, or drives")
             for option, given in (("--device", words.device), ("--watchdog", words.watchdog)):
@@ -113,23 +107,18 @@ def _program(words: Words, watchdog: int, wrong: list[str]) -> tuple[str, str, l
                     wrong.append(f"{option} is for named drives; a program says so itself")
             path = Path(words.line[0])
             name = file_name(catalog.shown(path))
-            return name, files.text(path), source.known(named)
+            return name, files.text(path), source.asked(words.maps, ())
         if words.name:
             wrong.append("--program is for a file with several PROGRAMs")
         asked = words_of(words.line)
-        maps = source.known([*named, *(catalog.resolve(each.name) for each in asked if catalog.is_path(each.name))])
-        known = {each.path.resolve(): (each.path, each.drive) for each in maps}
-        drives = drives_of(asked, lambda each: _found(each, known))
+        maps = source.asked(words.maps, [each.name for each in asked])
+        drives = drives_of(asked, lambda each: source.meant(each, maps))
         if len(drives) + len(words.device) > MOST_UNITS:
             wrong.append(f"{len(drives) + len(words.device)} units; a line has 1 to {MOST_UNITS}")
         return "line.st", _text(words, drives, watchdog), maps
     except (Refused, files.BadFile) as error:
         wrong.append(str(error))
         return "", "", []
-
-
-def _found(name: str, known: dict[Path, tuple[Path, Drive]]) -> tuple[Path, Drive]:
-    return known[catalog.displacing(catalog.resolve(name), [path for path, _ in known.values()]).resolve()]
 
 
 def _text(words: Words, drives: list[Named], watchdog: int) -> str:

@@ -212,20 +212,17 @@ def text(about: About, found: Found) -> str:
 
 
 def _lines(about: About, found: Found) -> Iterator[str]:
-    for key, value in (("map", about.map), ("revision", about.revision), ("date", about.date), ("who", about.who)):
-        yield from [f"{key}: {_flow(value)}"] if value else []
-    if found.way and found.unit is not None:
-        way = found.way
-        yield f"line: {_flow({'rate': way.rate, 'form': way.form, 'mode': way.mode, 'unit': found.unit})}"
+    known = found.way is not None and found.unit is not None
     open_ = [each for each in STEPS if each not in found.done and not (each in SKIPPABLE and each in found.skipped)]
-    ended = found.ended or (f"not finished: {', '.join(open_)}" if open_ else "")
-    for key, value in (("family", found.family), ("plate", found.plate), ("ended", ended)):
-        yield from [f"{key}: {_flow(value)}"] if value else []
-    for key, some in (
-        ("finished", found.done), ("skipped", found.skipped), ("tried", found.tried),
-        ("faults", [each.text for each in found.faults]), ("evidence", found.evidence),
-    ):  # fmt: skip
-        yield from [f"{key}: {_flow(some)}"] if some else []
+    facts = {
+        "map": about.map, "revision": about.revision, "date": about.date, "who": about.who,
+        "line": {**vars(found.way), "unit": found.unit} if known else {},
+        "family": found.family, "plate": found.plate,
+        "ended": found.ended or (f"not finished: {', '.join(open_)}" if open_ else ""),
+        "finished": found.done, "skipped": found.skipped, "tried": found.tried,
+        "faults": [each.text for each in found.faults], "evidence": found.evidence,
+    }  # fmt: skip
+    yield from (f"{key}: {_flow(value)}" for key, value in facts.items() if value)
     rows: dict[str, list[dict[str, Any]]] = {
         "settings": [
             {"id": each.id, "read": each.read, **_due(each.must), "told": each.told} for each in found.settings
