@@ -24,7 +24,7 @@ from driveblocks.commands import FILE, refuse
 @click.option("--frames", is_flag=True, help="Print every frame as `driveblocks explain` does.")
 @click.option("--for", "length", metavar="TIME", help="End after this time, such as 60s.")
 @click.option("--schema", is_flag=True, help="Print the JSON Schema of scenarios, and nothing else.")
-def run(drives: tuple[str, ...], form: str, schema: bool, frames: bool, **words: Any) -> None:
+def run(drives: tuple[str, ...], form: str, schema: bool, **words: Any) -> None:
     """Simulate drives on a line, for a PLC or any MODBUS tool.
 
     Without --port, --tcp or --pty they are at 127.0.0.1:5020. On a REAL PORT it listens for 3 seconds, then asks each
@@ -33,7 +33,6 @@ def run(drives: tuple[str, ...], form: str, schema: bool, frames: bool, **words:
     Example: driveblocks simulate jscc@1 chf@2 --scenario trips.yaml --frames
     """
     from driveblocks.desk import scenario as scenarios
-    from driveblocks.desk.explain.trace import Tracer
     from driveblocks.desk.simulate.setup import Setup, Words
 
     if schema:
@@ -42,4 +41,4 @@ def run(drives: tuple[str, ...], form: str, schema: bool, frames: bool, **words:
     if not drives:
         refuse("name a drive; for example: driveblocks simulate jscc@1")
     made = Words(drives=drives, form=form.upper(), **words)
-    Setup(made, (lambda maps: Tracer(maps).lines) if frames else None).run()
+    Setup(made).run()

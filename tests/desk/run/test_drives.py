@@ -88,7 +88,7 @@ def test_a_program_without_words_gets_its_drives_as_they_left_the_factory() -> N
     program = loaded(text.replace("Setting.ReferenceScale := CountsPerHertz", "Setting.ReferenceScale := 7.0"))
     controller = Controller(program.library, program.program.name, wired(text), program.drives, 10_000)
     controller.instance.scan(0)
-    found = list(called.of_program(controller, list(FILES.values())))
+    found = list(called.of_program(controller, maps()))
     assert [(one.drive.prefix, one.unit) for one in found] == [("SN300G5", 1), ("JSCC", 2), ("CHF", 3)]
     assert {(one.maximum_hz, one.scales) for one in found} == {(50, ())}
 

@@ -11,6 +11,7 @@ from decimal import Decimal
 from pathlib import Path
 
 from driveblocks.desk.run.controller import Controller
+from driveblocks.maps.collection import Source
 from driveblocks.maps.model import Drive
 from driveblocks.maps.problem import Refused
 from driveblocks.render.drive import MEASURES, drive_block
@@ -96,9 +97,9 @@ def named(drives: Sequence[Word], find: Callable[[str], tuple[Path, Drive]], opt
     made: list[Named] = []
     for one in drives:
         taken = {each.unit for each in made}
-        unit = _unit(one.unit, taken)
-        if unit is None:
-            free = next((each for each in range(1, HIGHEST_UNIT + 1) if each not in taken), HIGHEST_UNIT)
+        free = next((each for each in range(1, HIGHEST_UNIT + 1) if each not in taken), HIGHEST_UNIT)
+        unit = int(one.unit) if re.fullmatch("[0-9]{1,3}", one.unit) else 0 if one.unit else free
+        if not 1 <= unit <= HIGHEST_UNIT or unit in taken:
             why = f"units are 1 to {HIGHEST_UNIT}, one drive each; write {one.name}@{free}"
             raise Refused(f"{option}{one.name}@{one.unit}: {why}")
         path, drive = find(one.name)
@@ -107,20 +108,12 @@ def named(drives: Sequence[Word], find: Callable[[str], tuple[Path, Drive]], opt
     return made
 
 
-def of_program(program: Controller, maps: Sequence[tuple[Path, Drive]]) -> Iterator[Named]:
+def of_program(program: Controller, maps: Sequence[Source]) -> Iterator[Named]:
     """The drives of a program, each at the unit address of its block, set as they left the factory."""
-    known = {drive.prefix.upper(): (path, drive) for path, drive in maps}
+    known = {each.drive.prefix.upper(): each for each in maps}
     for block in program.wiring.drives:
-        if program.unit(block):
-            yield Named(*known[block.prefix], program.unit(block))
-
-
-def _unit(number: str, taken: set[int]) -> int | None:
-    """A unit address that no other drive has: the one that is named, or the next free one."""
-    if not number:
-        return next((each for each in range(1, HIGHEST_UNIT + 1) if each not in taken), None)
-    unit = int(number) if re.fullmatch("[0-9]{1,3}", number) else 0
-    return unit if 1 <= unit <= HIGHEST_UNIT and unit not in taken else None
+        if unit := program.unit(block):
+            yield Named(known[block.prefix].path, known[block.prefix].drive, unit)
 
 
 def _facts(drive: Drive, one: Word, option: str) -> tuple[int, dict[str, str]]:

@@ -113,7 +113,7 @@ class Setup:
     def _simulates(self) -> list[Named]:
         """The drives that are named, else those of the program. Raises Refused."""
         if not self._options.simulate:
-            return list(of_program(self.probe, [(each.path, each.drive) for each in self._maps]))
+            return list(of_program(self.probe, self._maps))
         return named(words(self._options.simulate), lambda name: source.meant(name, self._maps), "--simulate ")
 
     def _simulated(self) -> Port:

@@ -1,16 +1,17 @@
 """From the words of the command line to drives on a line."""
 
 import re
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from contextlib import ExitStack
 from dataclasses import dataclass
 from pathlib import Path
 
 from driveblocks import console
 from driveblocks.desk import scenario
-from driveblocks.desk.bus import Bus, Frame
+from driveblocks.desk.bus import Bus
 from driveblocks.desk.clock import RealClock
 from driveblocks.desk.ending import Ending, listening
+from driveblocks.desk.explain.trace import Tracer
 from driveblocks.desk.port import Port, serial_port
 from driveblocks.desk.run.drives import named
 from driveblocks.desk.run.drives import words as drives_of
@@ -21,15 +22,12 @@ from driveblocks.desk.simulate.neighbour import Neighbours
 from driveblocks.desk.simulate.stand import Stand, view
 from driveblocks.desk.words import LOOPBACK, NO_PORT, opening, time
 from driveblocks.maps.load import named as map_of
-from driveblocks.maps.model import Drive
 from driveblocks.maps.problem import Refused
 
 LABEL = "SIMULATED"
 TCP = 5020
 COUNTED = "heard/answered/refused"
 _FORM = re.compile(r"[78][NEO][12]")
-Traced = Callable[[Mapping[int, Drive]], Callable[[Frame], Iterable[str]]]
-"""From drives by unit to what says a frame of theirs in lines."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -42,14 +40,15 @@ class Words:
     form: str = "8N1"
     ascii: bool = False
     scenario: Path | None = None
+    frames: bool = False
     length: str | None = None
 
 
 class Setup:
     """Drives that are ready to be put on a line."""
 
-    def __init__(self, words: Words, traced: Traced | None = None) -> None:
-        """Judge the words; with `traced` every frame is printed. Raises Refused with all that is wrong with them."""
+    def __init__(self, words: Words) -> None:
+        """Judge the words. Raises Refused with all that is wrong with them."""
         self._words = words
         if mistakes := list(self._wrong()):
             raise Refused("\n".join(mistakes))
@@ -62,7 +61,7 @@ class Setup:
         self._settings = [line for one in wanted for line in one.told()]
         bits = 1 + int(words.form[0]) + (words.form[1] != "N") + int(words.form[2])
         self._bus = Bus(drives, words.baud, bits, ascii_mode=words.ascii)
-        self._lines = traced(self.maps) if traced is not None else None
+        self._tracer = Tracer(self.maps)
 
     def _wrong(self) -> list[str]:
         words, found = self._words, []
@@ -142,7 +141,7 @@ class Setup:
         def look(at_us: int) -> None:
             while self._bus.frames:
                 frame = self._bus.frames.popleft()
-                for line in self._lines(frame) if self._lines is not None else ():
+                for line in self._tracer.lines(frame) if self._words.frames else ():
                     say(line)
             screen.show(view(self._bus, self.maps, at_us, counted=isinstance(screen, LiveTable)))
 
