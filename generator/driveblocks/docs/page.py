@@ -298,13 +298,11 @@ def _conduct(drive: Drive) -> list[tuple[str, str]]:
     ]
 
 
-def _yes(one: bool) -> str:
-    return "yes" if one else "no"
-
-
 def _shows(drive: Drive, shows: str) -> str:
     measure = drive_block(drive).showing.measures.get(shows)
-    return _yes(measure is not None) if measure is None or measure.scale else UNSCALED
+    if measure is None:
+        return "no"
+    return "yes" if measure.scale else UNSCALED
 
 
 def _guessed(drive: Drive) -> bool:

@@ -40,16 +40,13 @@ def scripts(drive: Drive, stem: str) -> Iterator[Script]:
         ("ResetStop", "a fault reset, and the stops that go before it", _reset_stops()),
         ("KeepWord", "bits beside the commands' own pass through", _kept(drive)),
     ):
-        program = bench.script(drive, stem, subject, title, _source(drive))
+        sources = dict.fromkeys(command.source for command in drive.operation.commands)
+        program = bench.script(drive, stem, subject, title, "; ".join(sources))
         bench.declare(program, Command=f"{drive.prefix}_Command")
         rows = list(steps)
         assert len(rows) <= MOST_STAGES  # noqa: S101  (a second program would have a block that remembers nothing)
         _steps(_table(program, drive), drive, rows)
         yield program
-
-
-def _source(drive: Drive) -> str:
-    return "; ".join(dict.fromkeys(command.source for command in drive.operation.commands))
 
 
 def keeps(model: Commands) -> dict[int, str]:

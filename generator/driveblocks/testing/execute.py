@@ -1,6 +1,6 @@
 """One test program on one engine: scan until it is done, and note each check as the program reports it."""
 
-import struct
+import ctypes
 import time
 from dataclasses import dataclass
 
@@ -41,13 +41,6 @@ def execute(library: Library, program: Program, setting: Setting) -> Result:
 def _first_bad(outcomes: list[Outcome]) -> int | None:
     """Place of the first check of a scene that failed."""
     return next((at for at, one in enumerate(outcomes) if one.scene and one.status == FAILED), None)
-
-
-def lost(program: Program, setting: Setting, why: str) -> Result:
-    """The result of a program that gave none, all its checks being lost."""
-    run = _Run(program, setting, 0.0)
-    run.give_up(why)
-    return Result(setting.engine, setting.unit, program.name, tuple(run.outcomes), group=program.group)
 
 
 class _Run:
@@ -167,12 +160,7 @@ def _text(data: bytes) -> str:
 def _real(value: float) -> str:
     """A REAL with as few digits as distinguish it from its neighbours."""
     texts = (f"{value:.{digits}g}" for digits in range(6, 10))
-    return next((text for text in texts if _single(float(text)) == value), f"{value:.9g}")
-
-
-def _single(value: float) -> float:
-    found: float = struct.unpack("f", struct.pack("f", value))[0]
-    return found
+    return next((text for text in texts if ctypes.c_float(float(text)).value == value), f"{value:.9g}")
 
 
 def printed(check: Check, value: Value) -> str:

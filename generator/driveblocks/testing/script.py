@@ -174,7 +174,7 @@ class Script:
 
     def stage(self, words: str, *items: Item, source: str = "") -> None:
         """Add a stage; one with more checks than a scan may have becomes several."""
-        room = PER_SCAN - _count(self.tail)
+        room = PER_SCAN - len(_probes(self.tail))
         part: list[Item] = []
         checks = 0
         for item in items:
@@ -217,10 +217,6 @@ def _chunks(stages: Sequence[Stage]) -> Iterator[list[Stage]]:
             chunk = chunk[MOST_STAGES:]
     if chunk:
         yield chunk
-
-
-def _count(items: Sequence[Item]) -> int:
-    return len(_probes(items))
 
 
 def _probes(items: Sequence[Item]) -> list[Probe]:

@@ -2,7 +2,7 @@
 
 from typing import get_args
 
-from driveblocks.maps.model import Drive, Reaction, Reacts, Setting, SilenceTime, TripOutput, Watchdog
+from driveblocks.maps.model import Drive, Reaction, Reacts, Setting, SilenceTime, Watchdog
 from driveblocks.maps.problem import Place, Report
 from driveblocks.maps.rules import term
 from driveblocks.maps.rules.access import known
@@ -17,8 +17,9 @@ def check(drive: Drive, report: Report) -> None:
     settings = {setting.id: setting for setting in drive.settings}
     if drive.watchdog is not None:
         _watchdog(drive, drive.watchdog, settings, report)
-    if drive.faults.trip_output is not None:
-        _trip(drive.faults.trip_output, report)
+    output = drive.faults.trip_output
+    if output is not None and output.motor == "differs" and output.note is None:
+        report.miss(output.place("motor"), "nothing says how it differs", "say so in a `note`")
 
 
 def _watchdog(drive: Drive, watchdog: Watchdog, settings: dict[str, Setting], report: Report) -> None:
@@ -106,8 +107,3 @@ def _meant(name: str, zh: str) -> tuple[Reacts, ...]:
     if term.STOP in means:
         return _STOPS
     return ("runs_on", "other_speed") if term.RUN in means else get_args(Reacts)
-
-
-def _trip(output: TripOutput, report: Report) -> None:
-    if output.motor == "differs" and output.note is None:
-        report.miss(output.place("motor"), "nothing says how it differs", "say so in a `note`")

@@ -23,8 +23,6 @@ Context = dict[str, Any]
 KINDS = {"stop": 1, "quick_stop": 2, "coast_stop": 3, "jog_stop": 4}
 ORDERS = {"run_forward": 5, "run_reverse": 6, "jog_forward": 7, "jog_reverse": 8}
 MAXIMUM_HZ = 50
-PLACES = 16
-"""Registers that it keeps; those that tests write are after those that its commands need."""
 
 
 @cache

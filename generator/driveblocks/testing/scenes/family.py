@@ -8,7 +8,7 @@ from typing import Any
 
 from driveblocks.maps.form import is_bit
 from driveblocks.maps.model import Command, Drive
-from driveblocks.maps.polls import Poll, fast_words, other_words, polls, schedule, slow_words, speed_words, young_words
+from driveblocks.maps.polls import fast_words, other_words, polls, schedule, slow_words, speed_words, young_words
 from driveblocks.modbus.layout import COIL_ON
 from driveblocks.reference.naming import word_pin
 from driveblocks.simulator.move import MOTIONS
@@ -177,12 +177,9 @@ def _reads_of(drive: Drive) -> dict[str, set[int]]:
         "master": [each.register for each in bus],
         "states": [each.register for each in operation.states],
     }
-    at = {address: number for number, read in enumerate(polls(drive)) for address in _addresses(read)}
+    spans = (range(each.address, each.address + each.words) for each in polls(drive))
+    at = {address: number for number, span in enumerate(spans) for address in span}
     return {role: {at[each] for each in found} for role, found in registers.items()}
-
-
-def _addresses(read: Poll) -> range:
-    return range(read.address, read.address + read.words)
 
 
 # ---------------------------------------------------------------- what is written
