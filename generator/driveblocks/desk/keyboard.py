@@ -1,7 +1,6 @@
 """Lines that a person types, or a pipe brings; no key by itself, which would need another module on each platform."""
 
 import os
-from collections.abc import Callable
 
 from driveblocks.desk.script import Setting, setting
 from structured_text.engines.engine import Instance
@@ -32,12 +31,6 @@ class Keyboard:
             self._rest += some
         line, _, self._rest = self._rest.partition(b"\n")
         return line.decode("utf-8", "replace").rstrip("\r")
-
-    def serve(self, taken: Callable[[str], None], ended: Callable[[], None]) -> None:
-        """Hand over every line, then say that there are no more."""
-        while (line := self.line()) is not None:
-            taken(line)
-        ended()
 
 
 def is_variable(word: str, program: Instance) -> bool:

@@ -1,7 +1,9 @@
 """What a person, or a script in their place, sets in a running program: `at 2.5s: Start1 := TRUE`."""
 
 import re
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from functools import partial
 from math import isfinite
 
 from driveblocks.maps.problem import Refused
@@ -41,44 +43,30 @@ def read(path: str, text: str, program: Instance) -> list[Setting]:
         bare = _COMMENT.split(line)[0]
         if not bare.strip():
             continue
-        try:
-            settings += _line(bare, program)
-        except _Wrong as error:
-            wrong.append(Message(path, number, error.column, str(error)))
+        settings += _line(bare, program, partial(Message, path, number), wrong)
     if wrong:
         raise Refused("\n".join(map(str, wrong)))
     return sorted(settings, key=lambda each: each.at_us)
 
 
-class _Wrong(Exception):  # noqa: N818  (a mistake in a script is no error of the program)
-    def __init__(self, column: int, text: str) -> None:
-        self.column = column
-        super().__init__(text)
-
-
-def _line(line: str, program: Instance) -> list[Setting]:
-    start = len(line) - len(line.lstrip())
+def _line(line: str, program: Instance, at: Callable[[int, str], Message], wrong: list[Message]) -> Iterator[Setting]:
+    """What a line sets; its first mistake is added to `wrong`, `at` its column."""
+    column = len(line) - len(line.lstrip())
     found = _LINE.fullmatch(line.strip())
     if found is None:
-        raise _Wrong(start + 1, "this is no step; write: at 2.5s: NAME := VALUE")
+        wrong.append(at(column + 1, "this is no step; write: at 2.5s: NAME := VALUE"))
+        return
+    place = column + found.start("time")
     try:
         at_us = duration_us(found["time"])
+        column += found.start("rest")
+        for part in found["rest"].split(";"):
+            place = column + len(part) - len(part.lstrip())
+            if part.strip():
+                yield setting(part, program, at_us)
+            column += len(part) + 1
     except ValueError as error:
-        raise _Wrong(start + found.start("time") + 1, str(error)) from None
-    made = []
-    column = start + found.start("rest")
-    for part in found["rest"].split(";"):
-        if part.strip():
-            made.append(_placed(part, column, program, at_us))
-        column += len(part) + 1
-    return made
-
-
-def _placed(part: str, column: int, program: Instance, at_us: int) -> Setting:
-    try:
-        return setting(part, program, at_us)
-    except ValueError as error:
-        raise _Wrong(column + len(part) - len(part.lstrip()) + 1, str(error)) from None
+        wrong.append(at(place + 1, str(error)))
 
 
 def setting(text: str, program: Instance, at_us: int = 0) -> Setting:

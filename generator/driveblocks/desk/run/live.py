@@ -65,21 +65,20 @@ def _undisturbed() -> Iterator[None]:
 
 
 def _listen_to(keyboard: Keyboard, session: Session, *, end_of_input: bool) -> None:
-    def taken(line: str) -> None:
-        word = line.strip()
-        if word == "q":
-            session.ending.ask("q")
-        elif word == "help":
-            for text in HELP if session.play is not None else HELP[:-2]:
-                session.told.put(text)
-        elif word:
-            session.typed.put(line)
-
-    def ended() -> None:
+    def serve() -> None:
+        for line in iter(keyboard.line, None):
+            word = line.strip()
+            if word == "q":
+                session.ending.ask("q")
+            elif word == "help":
+                for text in HELP if session.play is not None else HELP[:-2]:
+                    session.told.put(text)
+            elif word:
+                session.typed.put(line)
         if end_of_input:
             session.ending.ask("the input has ended", alone=True)
 
-    _beside(lambda: keyboard.serve(taken, ended))
+    _beside(serve)
 
 
 def _beside(work: Callable[[], object]) -> threading.Thread:
