@@ -154,7 +154,7 @@ class Master:
         end = self._spoken_us = begin + self._wire_us(request)
         self._cutter.dialects = self.said.dialects
         self._cutter.expects = frozenset(self._length(each) for each in sizes(body, self._cutter.dialects))
-        self._cutter.request, self._cutter.begins = request, body[:2] if self.speech.mode == "rtu" else b":"
+        self._cutter.request, self._cutter.begins = request, body[:1] if self.speech.mode == "rtu" else b":"
         self._port.send(request)
         self.said.sent(Frame(begin, end, request, good=True))
         size = reply_size(body) if body[1] in READS else len(body)

@@ -329,7 +329,6 @@ def test_a_stop_meets_no_reply_and_keeps_the_silence(after_us: int) -> None:
     while len(desk.line.sent) == before:
         desk.scan(SCAN_US // 1000)
     assert desk.controller.number("Bus.Good") >= good
-    asked = desk.line.sent[-1]
     said = desk.clock.now_us() - SCAN_US
     desk.clock.sleep_until(said + after_us)
     stopped: list[int] = []
@@ -343,7 +342,6 @@ def test_a_stop_meets_no_reply_and_keeps_the_silence(after_us: int) -> None:
     desk.ending.ask("Ctrl-C")
     desk.session.run()
     replied = [at for at in heard if at <= stopped[0]]
-    assert asked != desk.line.sent[-1]
     assert replied
     assert stopped[0] - replied[-1] >= 20_000
     assert stopped[0] - said < 100_000

@@ -10,10 +10,10 @@ from driveblocks.desk.master import REPLY_US, Last, Master, Speech
 from driveblocks.desk.run.controller import Controller
 from driveblocks.desk.run.gate import Gate
 from driveblocks.desk.run.guard import stop_request
-from driveblocks.maps.form import Span
+from driveblocks.desk.site.register import spans
 from driveblocks.maps.model import Drive
 from driveblocks.maps.pair import whole
-from driveblocks.maps.plan import read_request
+from driveblocks.maps.plan import most, read_request
 from driveblocks.simulator.pattern import of_condition
 
 LEAST_US = 2_000_000
@@ -120,18 +120,18 @@ class Stopper:
     def _confirm(self, master: Master, unit: int, one: Stop) -> None:
         """Read whether it is at standstill. Between two reads it is stopped again: their replies may look the same."""
         patterns = [of_condition(each) for each in one.drive.operation.standstill.all]
+        wanted = sorted({word for each in patterns for word in whole(one.drive, each.register)})
         words: dict[int, int] = {}
-        for at, value in enumerate(sorted({whole(one.drive, each.register) for each in patterns})):
+        for at, span in enumerate(spans(one.drive, wanted, most(one.drive, self.speech.mode).read)):
             if at:
                 self._stopped(master, unit, one)
-            request = read_request(unit, one.drive, Span(value[0], value[-1]))
-            reply = master.ask(request, self._patience_us(master, one))
+            reply = master.ask(read_request(unit, one.drive, span), self._patience_us(master, one))
             if not reply.words:
                 silent = one.acknowledged_us is None and not reply.answered
                 one.why = SILENT if silent else "stop acknowledged, its status is not answered"
                 return
             self._acknowledged(one)
-            words |= zip(value, reply.words, strict=True)
+            words |= zip(span, reply.words, strict=True)
         proved = all(each.holds(words[each.register]) for each in patterns)
         one.why = "" if proved else "stop acknowledged, its status does not prove standstill"
 
