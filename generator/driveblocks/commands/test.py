@@ -171,6 +171,8 @@ def _draw(run: "Run", folder: Path) -> None:
         try:
             spare(path, record.PICTURE, "no `driveblocks test`")
             folder.mkdir(parents=True, exist_ok=True)
+        except FileExistsError as error:
+            refuse(f"{error.filename}: {error.strerror}")
         except OSError as error:
             refuse(f"{error.filename}: cannot be written: {error.strerror}")
         failed = next(outcome for outcome in result.bad if outcome.scene)
