@@ -8,6 +8,7 @@ from driveblocks.desk.run.guard import READS, Guard, is_stop
 from driveblocks.desk.run.mailbox import Mailbox
 from driveblocks.desk.run.wiring import DriveBlock, Wiring
 from driveblocks.maps.model import Drive
+from driveblocks.modbus.envelope import mode_of
 from driveblocks.modbus.frame import opened
 from structured_text.engines.embedded import EmbeddedInstance, EmbeddedLibrary
 
@@ -59,7 +60,9 @@ class Controller:
         """Take what has come; before the time of the scan is taken, so that nothing came after it."""
         some = self._port.receive()
         self._heard += some
-        if some and not self._said.startswith(self._heard):  # else it is our own echo
+        reply = self._heard.removeprefix(self._said) if some else b""  # without our own echo
+        body = opened(mode_of(reply), reply) if reply else None
+        if body is not None and body[0] == self._asked:
             self.met.add(self._asked)
         self._came = (self._came or b"") + some
 
