@@ -161,7 +161,9 @@ def judged(end: End) -> None:
     assert not (back and moving), f"{moving} run on after {took:.0f} s: {said}"
     unproved = end.noise > 0 and end.way_ms > 0  # it stands, and hardly a read comes through that could prove it
     assert (
-        took <= within + BOUND_S + end.way_ms / 300 + 2 * (end.noise > 0) if alone else unproved or not desk.ending.hurry
+        took <= within + BOUND_S + end.way_ms / 300 + 2 * (end.noise > 0)
+        if alone
+        else unproved or not desk.ending.hurry
     ), (
         took,
         said,
