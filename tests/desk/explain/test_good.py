@@ -87,6 +87,13 @@ def test_what_a_frame_says(explain: Explain, prefix: str, body: str, says: str) 
     assert made.readings[0].says == says
 
 
+def test_a_refusal_means_what_the_manual_says_of_it(explain: Explain) -> None:
+    (reply,) = explain("JSCC", rtu("01 83 02")).readings
+    assert any(each.startswith("Means: The data address received is one") for each in reply.notes)
+    (foreign,) = explain("CHF", rtu("01 83 08")).readings  # in a form that the drive has not
+    assert not foreign.notes
+
+
 def test_request_and_reply_of_a_single_write_are_the_same(explain: Explain) -> None:
     made = explain("JSCC", "01 06 10 00 00 01 4C CA")
     assert [one.direction for one in made.readings] == ["request", "reply"]
