@@ -50,6 +50,22 @@ def saved(stem: str, line: str, seed: int) -> tuple[Line, Named, dict[int, Word]
     return wire, peers[0], found, ended
 
 
+def weighed(stem: str, line: str, seed: int) -> str:
+    """What is said of a drive's family before it is read: another one, or why it cannot be judged."""
+    peers, fate = units(stem, line, seed)
+    wire = Line(peers, fate, seed)
+    reader = Reader(wire, wire.clock, One(stem, MAPS[stem], 1), Speech("rtu", CHAR_US), 30_000_000)
+    try:
+        return reader.stranger({name: each for name, each in MAPS.items() if name != stem})
+    except LostError as error:
+        return type(error).__name__
+
+
+@pytest.mark.parametrize("line", [each for each in LINES if each.startswith(("doubled", "twins"))])
+def test_no_family_is_named_where_two_replies_come(line: str) -> None:
+    assert weighed("rockwell_powerflex_525", line, 0) in ("", "StraysError")
+
+
 def wrong(stem: str, peer: Named, found: dict[int, Word], ended: str) -> Iterator[str]:
     """Words that are not the drive's, refusals that it has not given, and words that are not there."""
     for address, word in found.items():

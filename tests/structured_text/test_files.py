@@ -15,7 +15,7 @@ from tests.rooms import MODULES
 from structured_text import files
 from structured_text.files import BadFile, data, head, opened, put, text
 
-POSIX = pytest.mark.skipif(sys.platform == "win32", reason="pipes, modes and links are others there")
+POSIX = pytest.mark.skipif(sys.platform == "win32", reason="Windows has no such pipes, modes and links")
 
 
 def opens(node: ast.AST, reads: bool) -> bool:

@@ -8,7 +8,8 @@ from driveblocks.desk.clock import Clock
 from driveblocks.desk.exchange import ECHOED, LATE_US, Exchanges, Said
 from driveblocks.desk.frames import QUIET_US, Cutter, Frame
 from driveblocks.desk.port import Port
-from driveblocks.modbus.frame import Mode, seal
+from driveblocks.modbus.envelope import mode_of
+from driveblocks.modbus.frame import Mode, opened, seal
 from driveblocks.modbus.layout import Dialect, Layout, reply_size
 
 SILENT_CHARACTERS = 4
@@ -122,7 +123,7 @@ class Master:
 
     def take_over(self, last: Last) -> None:
         """Begin after whoever has spoken before: wait for the reply to the last request."""
-        if not last.sent or last.sent_us is None:
+        if last.sent_us is None or opened(mode_of(last.sent), last.sent) is None:
             return
         end = last.sent_us + self._wire_us(last.sent)
         self.said.sent(Frame(last.sent_us, end, last.sent, good=True))

@@ -34,7 +34,7 @@ WRITERS: dict[str, Callable[[Path], object]] = {
 }
 
 
-@pytest.mark.skipif(sys.platform == "win32", reason="pipes and links are others there")
+@pytest.mark.skipif(sys.platform == "win32", reason="Windows has no named pipes in folders and asks for rights to link")
 @pytest.mark.parametrize("name", WRITERS)
 @pytest.mark.parametrize("kind", PREPARED)
 def test_what_is_prepared_beside_a_file_is_neither_written_nor_removed(tmp_path: Path, name: str, kind: str) -> None:
@@ -48,7 +48,7 @@ def test_what_is_prepared_beside_a_file_is_neither_written_nor_removed(tmp_path:
     assert {*tmp_path.iterdir()} == {path, victim, trap}
 
 
-@pytest.mark.skipif(sys.platform == "win32", reason="links are others there")
+@pytest.mark.skipif(sys.platform == "win32", reason="Windows asks for rights to link")
 def test_what_could_not_be_written_at_the_end_is_refused_at_the_start(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -261,7 +261,7 @@ def test_a_full_disk_leaves_the_file_that_was_there(pump: Path, monkeypatch: pyt
     assert (pump.read_bytes(), [*pump.parent.iterdir()]) == (before, [pump])
 
 
-@pytest.mark.skipif(sys.platform == "win32", reason="modes and links of files are others there")
+@pytest.mark.skipif(sys.platform == "win32", reason="Windows has no such modes and links")
 def test_a_link_stays_a_link_and_a_private_file_private(pump: Path, tmp_path: Path) -> None:
     (tmp_path / "there").mkdir()
     path = pump.rename(tmp_path / "there" / "pump.csv")

@@ -28,7 +28,7 @@ MOST_TEXT = 200
 _UINT = re.compile("[0-9]{1,4}|[1-5][0-9]{4}|6[0-4][0-9]{3}|65[0-4][0-9]{2}|655[0-2][0-9]|6553[0-5]")
 Ms = Annotated[int, Form("time of a PLC", _UINT, int, "write 0 to 65535, in ms", numeric=True)]
 _END = re.compile(r"(?m)^\.\.\.(?!\S)\s?")
-"""What ends a document of YAML: nothing can be written behind it."""
+"""What ends a document of YAML: nothing can be written after it."""
 HEAD = "# Written by `driveblocks commission`, one entry per drive; other entries, and all comments, are kept.\n"
 
 

@@ -204,11 +204,17 @@ class Reader:
         return ""
 
     def stranger(self, others: Mapping[str, Drive]) -> str:
-        """What shows that the unit is another family's; empty where nothing does. Raises LostError."""
-        why = stranger(self.master, self._drive, self._unit, others)
-        if not self.master.answered:
-            raise LostError(self.master.error or f"unit {self._unit} does not answer")
-        return why
+        """What shows that the unit is another family's; empty where nothing does. Raises LostError, StraysError."""
+        for _ in range(2):
+            strays = self.master.strays
+            why = stranger(self.master, self._drive, self._unit, others)
+            if not self.master.answered:
+                raise LostError(self.master.error or f"unit {self._unit} does not answer")
+            if why and self._answer(self._good) != SILENT:  # a second unit would show now, if it has not before
+                self.master.rest(REPEAT_US)
+            if not why or self.master.strays == strays:
+                return why
+        raise StraysError(f"the family of unit {self._unit} cannot be judged, for replies unasked for: {STRAYS}")
 
     def _answers(self, wait: Callable[[str], None]) -> bool:
         """Wait until a run that was answered before is answered again. Raises LostError."""
