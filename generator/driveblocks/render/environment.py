@@ -14,7 +14,7 @@ from driveblocks.render import constants, expression, results
 from structured_text.language import writing
 from structured_text.language.fingerprint import body, fingerprint, stream
 
-ABI = 3
+ABI = 4
 """Version of the shared types; blocks of one ABI number fit together."""
 
 WIDE = 80

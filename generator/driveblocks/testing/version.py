@@ -8,7 +8,7 @@ from driveblocks.maps.revision import revision
 from driveblocks.testing import bench
 from driveblocks.testing.script import Script
 
-ABI = 3
+ABI = 4
 """What the heads of the shared types say."""
 HALF = 1 << 16
 
