@@ -1,23 +1,20 @@
 """Random lines of real drive blocks: who is read how often, and whom others stop.
 
-`python -m tests.line.budget --first SEED --count N [--jobs N] [--store FILE]` judges so many lines of two to 32 drives of
-all families, which start together, are stopped and started again, and of which some fall silent, refuse or go dark at
-once; with a FILE it goes on where it was ended. `--alike` judges the lines of eight drives of one family. `--show` tells all.
+`python -m tests.line.budget [--first SEED] [--count N] [--store FILE]` judges lines of 2 to 32 drives of all families,
+which start together, are stopped and started again, and of which some fall silent, refuse or go dark at once; `--alike`
+judges those of eight drives of one family; `--only NAME` one of them again.
 """
 
-import argparse
-import json
 import sys
 from collections import Counter
 from collections.abc import Iterator, Sequence
-from concurrent.futures import ProcessPoolExecutor
-from dataclasses import asdict, dataclass, field, replace
-from pathlib import Path
+from dataclasses import dataclass, replace
+from itertools import product
 from random import Random
 from statistics import median
-from typing import Any
 
 from tests.line.crowd import FAMILIES, Crowd, Exchange, Hall, crowd
+from tests.line.many import Judged, arguments, judged, summary
 from tests.second.drive import Drive
 from tests.second.frames import LAST_READ, runs
 from tests.second.pf4 import alike
@@ -33,8 +30,11 @@ READY_US, CALM_US, START_US = 240_000_000, 15_000_000, 60_000_000
 that are not; how long from an edge to the first turn."""
 DYING_US, AFTER_US, END_US = 20_000_000, 40_000_000, 40_000_000
 """From the start to the death of some, from there to the last stop, and then to the end."""
+ALIKE = 8
 STALE = 5000
 """The usual StaleMs."""
+NEVER = 99.0
+"""Times of what was promised: it did not come."""
 SHARE, STARTS = 0.5, 0.6
 """At least so much of WorstReadMs is seen at the median of lines; so many lines may start their drives."""
 US = 1000
@@ -88,52 +88,19 @@ def draw(seed: int) -> Draw:
     )  # fmt: skip
 
 
-def alike_lines() -> Iterator[Draw]:
+def alike_lines() -> Iterator[str]:
     """Eight drives of each family at 19,200 bit/s, started together; then none to seven die."""
-    for family in FAMILIES:
-        for scan in (10_000, 20_000, 50_000):
-            for dead in range(8):
-                yield Draw(seed=dead, families=(family,) * 8, scan=scan, dead=tuple(range(8 - dead, 8)), strict=True)
-
-
-@dataclass
-class Judged:
-    """What has come of a line; `told` are broken rules, the first one first."""
-
-    draw: dict[str, Any]
-    told: list[str] = field(default_factory=list)
-    starts: bool = False
-    """All drives may start."""
-    barred: str = ""
-    """Why not, by the first that may not."""
-    share: float = 0.0
-    """The largest StatusAgeMs of WorstReadMs, of all drives."""
-    stops: int = 0
-    stop: float = 0.0
-    """The largest part of WorstStopMs from a pin to its stop."""
-    cut: float = 0.0
-    """The largest part of CutToContactMs from a death to StopOverdue."""
-    seconds: float = 0.0
-    """Of the bus."""
-
-    def tell(self, rule: str, seen: str) -> None:
-        """A broken rule; each once."""
-        if not any(each.startswith(f"{rule}:") for each in self.told):
-            self.told.append(f"{rule}: {seen}")
-
-    @property
-    def rules(self) -> list[str]:
-        """Their names."""
-        return [each.partition(":")[0] for each in self.told]
+    every = product(FAMILIES, (10, 20, 50), range(ALIKE), ("port", "line"))
+    return (",".join(map(str, each)) for each in every)
 
 
 class Line:
     """One line, from power-up to the last stop."""
 
-    def __init__(self, one: Draw, library: Crowd) -> None:
+    def __init__(self, name: str, one: Draw, library: Crowd) -> None:
         """Power up."""
         self.draw, self.chance = one, Random(f"line {one.seed}")
-        self.out = Judged(asdict(one))
+        self.out = Judged(name)
         self.hall = h = Hall(
             library, one.seed, slots=len(one.families), rate=one.rate, bits=one.bits, keeps=one.keeps,
             scan_us=one.scan, jitter_us=one.jitter,
@@ -154,6 +121,8 @@ class Line:
         self.asked: dict[int, tuple[int, int]] = {}
         """Open stops: when the pin fell, and how late the stop may be, ms."""
         self.gone: set[int] = set()
+        """Those that died, and of them those that ran and fell silent."""
+        self.dying: set[int] = set()
         self.died_us = 0
         self.cut_ms = 0
         h.watch.append(self._heard)
@@ -182,8 +151,8 @@ class Line:
             return
         worst = max(self.asked.pop(at)[1], int(self.hall.slots[at]["WorstStopMs"]))
         took = exchange.begins - self.hall.seen(at).put_at
-        self.out.stops += 1
-        self.out.stop = max(self.out.stop, took / (US * worst) if worst else 99)
+        self.out.figures["stops"] = self.out.figures.get("stops", 0) + 1
+        self.out.most("stop", took / (US * worst) if worst else NEVER)
         if took > US * worst:
             self.out.tell("late", f"{self._who(at)}: a stop after {took // US} of {worst} ms")
 
@@ -199,8 +168,8 @@ class Line:
             return
         self.out.tell(
             f"stopped by {by}",
-            f"{self._who(at)} with {exchange.data.hex()}: StopReason {d['DIAGNOSIS.StopReason']:.0f}, Reason {d['Reason']:.0f}, "
-            f"age at most {seen.age} of {worst} ms, StaleMs {stale}, fault {one.fault}",
+            f"{self._who(at)} with {exchange.data.hex()}: StopReason {d['DIAGNOSIS.StopReason']:.0f}, "
+            f"Reason {d['Reason']:.0f}, age at most {seen.age} of {worst} ms, StaleMs {stale}, fault {one.fault}",
         )
 
     def _who(self, at: int) -> str:
@@ -223,8 +192,8 @@ class Line:
             changed, shown = (h.now, now) if now != shown else (changed, shown)
         for at, d in enumerate(h.drives):
             read, stale = int(h.slots[at]["ReadMs"]), self.stale(at)
-            if not d["Ready"] and not self.out.barred:
-                self.out.barred = f"{d['Reason']:.0f}"
+            if not d["Ready"]:
+                self.out.figures.setdefault("barred", d["Reason"])
             if bool(d["Ready"]) != (read <= stale):
                 self.out.tell(
                     "ready",
@@ -234,7 +203,7 @@ class Line:
                 self.out.tell(
                     "figures", f"{self._who(at)}: ReadMs {read}, WorstReadMs {h.slots[at]['WorstReadMs']:.0f}"
                 )
-        return not self.out.barred
+        return "barred" not in self.out.figures
 
     def start(self) -> None:
         """All that may, together."""
@@ -277,15 +246,13 @@ class Line:
             one = self.models[at]
             if how == "silent":
                 h.deaf.add(at + 1)
-                self.dying[at] = at in running
+                self.dying |= {at} & running
             elif how == "refusing":
                 one.o = replace(one.o, busy_refuses="all")
                 one.be_strict(h.now, 10**10)
             else:
                 one.power(False, h.now)
                 h.put(at, SupplyOff=1)
-
-    dying: dict[int, bool]
 
     def live(self, until: int) -> None:
         """Pulses, references that never rest, or nothing."""
@@ -338,22 +305,22 @@ class Line:
             if seen.lost_starts:
                 out.tell("ready in vain", f"{self.draw.families[at]} {at + 1}: at {seen.lost_at // US} ms")
             if seen.worst and seen.watched:
-                out.share = max(out.share, seen.age / seen.worst)
-        for at, ran in self.dying.items():
-            took = (h.seen(at).overdue_at - self.died_us) / (US * self.cut_ms) if h.seen(at).overdue_at >= 0 else 99
-            if not ran:
-                continue
-            out.cut = max(out.cut, took)
-            if took > 1 and (len(self.gone) == len(self.models) or took == 99):
-                out.tell("cut", f"{self.draw.families[at]} {at + 1}: overdue after {took:.2f} x {self.cut_ms} ms")
+                out.most("share", seen.age / seen.worst)
+        for at in self.dying:
+            took = h.seen(at).overdue_at - self.died_us
+            part = took / (US * self.cut_ms) if h.seen(at).overdue_at >= 0 else NEVER
+            all_ = len(self.gone) == len(self.models)
+            out.most("all cut" if all_ else "cut", part)
+            if part == NEVER or (part > 1 and all_):
+                out.tell("cut", f"{self.draw.families[at]} {at + 1}: overdue after {part:.2f} x {self.cut_ms} ms")
         if h.library.short_silences.value:
             out.tell("silence", f"{h.library.short_silences.value} requests too early")
-        out.seconds = h.now / 1e6
+        out.figures["seconds"] = h.now / 1e6
 
     def go(self) -> Judged:
         """All of it."""
-        h, self.dying = self.hall, {}
-        self.out.starts = self.ready()
+        h = self.hall
+        self.out.figures["starts"] = self.ready()
         if any(d["Ready"] for d in h.drives):
             self.start()
             self.live(h.now + DYING_US)
@@ -364,67 +331,51 @@ class Line:
         return self.out
 
 
-def judge(one: Draw) -> Judged:
-    """Judge a line."""
-    return Line(one, crowd()).go()
+def judge(name: str) -> Judged:
+    """Judge a line by its name: a seed, or a family, its scan, how many die, and who keeps the silence."""
+    return Line(name, named(name), crowd()).go()
 
 
-# ---------------------------------------------------------------- many
+def named(name: str) -> Draw:
+    """The line of a name."""
+    if name.isdecimal():
+        return draw(int(name))
+    family, scan, dead, who = name.split(",")
+    lost = tuple(range(ALIKE - int(dead), ALIKE))
+    families = (family,) * ALIKE
+    return Draw(seed=int(dead), families=families, keeps=who == "port", scan=US * int(scan), dead=lost, strict=True)
 
 
 def report(found: Sequence[Judged], *, random: bool) -> int:
     """Figures of all lines; 1 where a bar is not held."""
-    bad = [each for each in found if each.told]
-    rules = Counter(rule for each in bad for rule in each.rules)
-    ran = [each for each in found if each.share]
-    starts = sum(each.starts for each in found) / max(1, len(found))
-    share = median(each.share for each in ran) if ran else 0.0
-    barred = Counter(each.barred for each in found if each.barred)
-    print(
-        f"{len(found)} lines, {sum(each.seconds for each in found) / 3600:.1f} hours of the bus; {len(bad)} fail: {dict(rules)}"
-    )
+    bad = summary(found)
+    figures = [each.figures for each in found]
+    starts = sum(each["starts"] for each in figures) / max(1, len(found))
+    shares = [each["share"] for each in figures if each.get("share")]
+    share = median(shares) if shares else 0.0
+    print(f"{sum(each['seconds'] for each in figures) / 3600:.1f} hours of the bus")
+    barred = Counter(each["barred"] for each in figures if each.get("barred"))
     print(f"may start {100 * starts:.1f} %, barred by reason {dict(barred)}")
-    print(f"largest age of WorstReadMs: median {share:.2f}, most {max((e.share for e in found), default=0):.2f}")
-    print(f"{sum(e.stops for e in found)} stops, most {max((e.stop for e in found), default=0):.2f} of WorstStopMs")
-    print(f"from death to overdue: most {max((e.cut for e in found), default=0):.2f} of CutToContactMs")
-    missed = random and (starts < STARTS or share < SHARE)
-    return 1 if bad or missed else 0
-
-
-def _stored(place: Path | None) -> dict[int, Judged]:
-    if place is None or not place.exists():
-        return {}
-    rows = [json.loads(line) for line in place.read_text("utf-8").splitlines()]
-    return {row["draw"]["seed"]: Judged(**row) for row in rows}
+    print(f"largest age of WorstReadMs: median {share:.2f}, most {max(shares, default=0):.2f}")
+    for name, of in (
+        ("stop", "WorstStopMs"),
+        ("cut", "CutToContactMs, some dead"),
+        ("all cut", "CutToContactMs, all dead"),
+    ):
+        print(f"most of {of}: {max((each.get(name, 0) for each in figures), default=0):.2f}")
+    print(f"{sum(each.get('stops', 0) for each in figures):.0f} stops")
+    return 1 if bad or (random and (starts < STARTS or share < SHARE)) else 0
 
 
 def main() -> int:
     """Judge lines."""
-    parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
-    parser.add_argument("--first", type=int, default=0)
-    parser.add_argument("--count", type=int, default=10_000)
-    parser.add_argument("--jobs", type=int, default=2)
-    parser.add_argument("--store", type=Path, help="one line for each judged; what is there is not judged again")
-    parser.add_argument("--alike", action="store_true", help="eight drives of one family")
-    parser.add_argument("--show", action="store_true", help="what was drawn, too")
+    parser = arguments(__doc__, 10_000)
+    parser.add_argument("--alike", action="store_true", help="eight drives of one family, also while some die")
+    parser.add_argument("--only", help="one of them")
     options = parser.parse_args()
-    crowd()  # compiled once, for all processes
-    known = _stored(options.store)
-    some = list(alike_lines()) if options.alike else [draw(options.first + at) for at in range(options.count)]
-    found = [known[each.seed] for each in some if each.seed in known and not options.alike]
-    with ProcessPoolExecutor(options.jobs) as pool:
-        for one in pool.map(judge, [each for each in some if options.alike or each.seed not in known], chunksize=4):
-            found.append(one)
-            if options.store:
-                with options.store.open("a", encoding="utf-8") as file:
-                    file.write(json.dumps(asdict(one)) + "\n")
-            if one.told or options.show:
-                what = one.draw if options.show else {k: one.draw[k] for k in ("seed", "rate", "scan", "how")}
-                print(
-                    f"{what} {len(one.draw['families'])} drives, {len(one.draw['dead'])} die: {'; '.join(one.told)}",
-                    flush=True,
-                )
-    return report(found, random=not options.alike)
+    names = list(alike_lines()) if options.alike else [str(options.first + at) for at in range(options.count)]
+    found = judged([options.only] if options.only else names, judge, options.jobs, options.store)
+    return report(found, random=not options.alike and not options.only)
 
 
 if __name__ == "__main__":

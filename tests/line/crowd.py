@@ -248,6 +248,8 @@ class Hall:
         self.char_us = -(-bits * 1_000_000 // rate)
         self.now = 0
         """Until when all has happened; the last scan was a little before."""
+        self.time = 0
+        """Of the event that happens."""
         self.drives: list[View] = []
         self.slots: list[View] = []
         self.families: list[str] = []
@@ -268,7 +270,8 @@ class Hall:
         library.c.crowd_new(at, FAMILIES.index(family), at if slot is None else slot)
         view = library.view(f"{family}_DRIVE", library.c.crowd_block(at))
         for name, value in (default_pins(family, address) | pins).items():
-            view[name] = int(value) if not isinstance(view.place(name), ctypes.c_float) else value
+            place = view.place(name.replace("__", "."))
+            place.value = value if isinstance(place, ctypes.c_float) else int(value)
         self.drives.append(view)
         self.families.append(family)
         self.slots.append(library.view("MB_SLOT", library.slot_base + library.slot_size * library.blocks[at].slot))
@@ -314,7 +317,8 @@ class Hall:
                 number = library.request_number.value
                 self.at(exchange.end, lambda exchange=exchange, number=number: self._heard(exchange, number))  # type: ignore[misc]
             elif events and events[0][0] <= until:
-                heapq.heappop(events)[2]()
+                self.time, _, does = heapq.heappop(events)
+                does()
             else:
                 self.now = until
                 return
