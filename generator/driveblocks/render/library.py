@@ -28,7 +28,7 @@ LINE_BLOCKS = (
     "MB_CrcByte", "MB_Plus", "MB_Minus", "MB_Sixteen", "MB_Usual", "MB_Retries", "MB_Characters", "MB_WireMs",
     "MB_Reads", "MB_Repeats", "MB_CheckBegin", "MB_CheckByte", "MB_FrameKind", "MB_ReplyFits", "MB_ReplyMs",
     "MB_Withdrawn", "MB_Rank", "MB_ProbeMs", "MB_WhyFailed", "MB_WhyUnsent", "MB_TriesOver", "MB_Overdue", "MB_PollMs",
-    "MB_StopMs", "MB_OthersMs", "MB_CutMs", "MB_Listen", "MB_Promise", "MB_Foreign", "MB_Stop",
+    "MB_StopMs", "MB_OthersMs", "MB_CutMs", "MB_AskCheck", "MB_Listen", "MB_Promise", "MB_Foreign", "MB_Stop",
 )  # fmt: skip
 CONTROL_BLOCKS = (
     "VFD_HardStop", "VFD_Next", "VFD_Link", "VFD_Unit", "VFD_LineFacts", "VFD_Set", "VFD_Usual", "VFD_IsScale",
