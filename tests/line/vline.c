@@ -426,9 +426,9 @@ static int run_cost(void) {
   for (int i = 0; i < 200000; i++) {
     us before = now; now += c.scan; elapsed = now / 1000 - before / 1000; receive();
     for (int k = 0; k < c.drives; k++) slots[k].ALIVE++;
-    unsigned number = port.TXNUMBER; int open = line.PHASE.value > 0;
+    unsigned number = port.TXNUMBER; int open = line.EXCHANGE.PHASE.value > 0;
     clock_gettime(CLOCK_MONOTONIC, &from); call(); clock_gettime(CLOCK_MONOTONIC, &to);
-    int what = port.TXNUMBER != number && open ? 2 : line.PHASE.value > 0 ? 1 : 0;
+    int what = port.TXNUMBER != number && open ? 2 : line.EXCHANGE.PHASE.value > 0 ? 1 : 0;
     double took = (to.tv_sec - from.tv_sec) * 1e9 + (to.tv_nsec - from.tv_nsec);
     if (took < 20000) { sums[what] += took; counts[what]++; }
     if (i % 10 == 0 && (took = crc_ns()) < 20000) { sums[3] += took; counts[3]++; }

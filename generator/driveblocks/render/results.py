@@ -92,6 +92,7 @@ RESULTS = (
     # the drive itself
     Result(73, "OTHER_DRIVE", "another kind of drive is at this address", "此地址上是另一种变频器"),
     Result(74, "BUSY", "the drive is busy", "变频器忙"),
+    Result(75, "ABI", "drive block and line are of different versions", "驱动功能块与总线功能块版本不同"),
 )
 _BY_NAME = {result.name: result for result in RESULTS}
 
