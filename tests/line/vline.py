@@ -25,6 +25,7 @@ STOP, COMMAND, PARAMETER, POLL = range(4)
 NAMES = {result.code: result.name for result in RESULTS}
 RX = [f"Port.Rx[{place}]" for place in range(256)]
 ALIVE = [f"Slots[{slot}].Alive" for slot in range(32)]
+ABIS = [f"Slots[{slot}].Abi" for slot in range(32)]
 CHECKED = ("Number", "Address", "FunctionCode", "Quantity", "Unit", "Family")
 """Fields of a stop that its check is of, before its word."""
 Edit = Callable[[str], str]
@@ -171,7 +172,6 @@ class Bench:
     def _slot(self, slot: int) -> None:
         kind, path = self.kind, f"Slots[{slot}]."
         fields = {
-            "Abi": ABI_WORD,
             "UnitAddress": slot + 1,
             "Family": self.config.kind + 1,
             "TurnRoundMs": self.config.turn_ms,
@@ -284,6 +284,7 @@ class Bench:
         for slot in self.attended:
             self._alive[slot] = (self._alive[slot] + 1) % 256
             self.block[ALIVE[slot]] = self._alive[slot]
+            self.block[ABIS[slot]] = ABI_WORD
         self.block["ElapsedMs"] = self.now // 1000 - self.called if elapsed is None else elapsed
         self.called = self.now // 1000
         self.block.scan()
