@@ -48,6 +48,9 @@ typedef struct { /* of one drive block; in crowd.py the same */
   int32_t family, slot, called, watched;   /* watched: its ages are judged */
   int32_t age, over, over_age, over_worst; /* the largest StatusAgeMs; calls with more than WorstReadMs, and the first */
   int32_t worst, ready, lost_starts, pins; /* the largest WorstReadMs; Ready after the last call; rising pins that started nothing */
+  int32_t block_abi, line_abi;             /* what is found in Abi instead after its call, and after that of the line; 0: as it is */
+  int32_t function, address, word, every;  /* of a block of another layout: what the line would take for a stop and a command */
+  int32_t nth, scans;                      /* called in each so manieth scan, as from a slower task; 0: in all */
   us over_at, put_at, overdue_at, lost_at; /* put_at: the first call after pins were changed; -1: not called since */
 } Block;
 typedef struct { int32_t blocks, slots, rate, bits, keeps, scan, jitter, elapsed, unused; us now; } Hall;
@@ -127,6 +130,12 @@ static int line_at;
 static struct { UINT fresh; int error, all, restarts; } was[MOST];
 static int byte_of(int at, int place) { return memory[at][place]; }
 static int word_of(int at, int place) { return *(uint16_t *)(memory[at] + place); }
+static void other_layout(Block *one, MB_SLOT *slot) {
+  one->every++;
+  for (int box = 0; box < 2; box++) { MB_ASK *ask = &slot->ASK.table[box];
+    ask->FUNCTIONCODE = one->function; ask->ADDRESS = one->address; ask->QUANTITY = 1; ask->WORDS.table[0] = one->word; ask->NUMBER = one->every / 50 + 1; }
+  slot->STOPREGISTER = one->address; slot->STOPWORD = one->word; slot->HASSTOP = 1;
+}
 static void called(int at) {
   Block *one = &block[at]; MB_SLOT *slot = &slots[one->slot]; const Places *place = &places[one->family];
   int pins = 0, calm = was[at].fresh == slot->FRESH && was[at].error == slot->LINEERRORID && was[at].all == slot->STOPALL && was[at].restarts == slot->RESTARTS;
@@ -138,6 +147,7 @@ static void called(int at) {
   if (one->ready && calm && !one->pins && pins && !(pins & (pins - 1)) && reason != 0 && reason != 2 && reason != 3 && !one->lost_starts++) one->lost_at = hall.now;
   one->pins = pins; one->ready = byte_of(at, place->ready);
   was[at].fresh = slot->FRESH; was[at].error = slot->LINEERRORID; was[at].all = slot->STOPALL; was[at].restarts = slot->RESTARTS;
+  if (one->block_abi) { slot->ABI = one->block_abi; other_layout(one, slot); }
   if (one->watched) {
     if (age > one->age) one->age = age;
     if (slot->WORSTREADMS > one->worst) one->worst = slot->WORSTREADMS;
@@ -164,8 +174,9 @@ int crowd_run(us until, uint16_t *elapsed_ms) {
     us before = hall.now; hall.now += took; hall.elapsed = 0;
     *elapsed_ms = hall.now / 1000 - before / 1000;
     receive();
-    for (int i = 0; i < hall.blocks; i++) if (block[i].called) called(i);
+    for (int i = 0; i < hall.blocks; i++) if (block[i].called && (!block[i].nth || ++block[i].scans % block[i].nth == 0)) called(i);
     LINES[line_at].call(line_memory, slots, &port);
+    for (int i = 0; i < hall.blocks; i++) if (block[i].line_abi) slots[block[i].slot].ABI = block[i].line_abi;
     for (int i = 0; i < hall.blocks; i++) if (block[i].overdue_at < 0 && slots[block[i].slot].STOPOVERDUE) block[i].overdue_at = hall.now;
     if (send()) return 1;
   }

@@ -9,7 +9,7 @@ import hashlib
 import heapq
 import re
 import subprocess
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path
@@ -51,7 +51,8 @@ class Block(ctypes.Structure):
     _fields_ = [
         *((name, ctypes.c_int32) for name in (
             "family", "slot", "called", "watched", "age", "over", "over_age", "over_worst",
-            "worst", "ready", "lost_starts", "pins",
+            "worst", "ready", "lost_starts", "pins", "block_abi", "line_abi", "function", "address", "word", "every",
+            "nth", "scans",
         )),
         *((name, ctypes.c_int64) for name in ("over_at", "put_at", "overdue_at", "lost_at")),
     ]  # fmt: skip
@@ -229,31 +230,30 @@ class Hall:
     """One line: blocks, models, and events on the wire by their times."""
 
     def __init__(self, library: Crowd, seed: int, *, slots: int, rate: int = 19200, bits: int = 10, keeps: bool = True,
-                 scan_us: int = 10_000, jitter_us: int = 0, most_ms: int = 0) -> None:  # fmt: skip
-        """A line without drives; the first scan is the PLC's first."""
+                 scan_us: int = 10_000,
+                 jitter_us: int = 0, before: "Hall | None" = None) -> None:  # fmt: skip
+        """A line without drives, or with those of another PLC program that has ended; its first scan is the first."""
         self.library = library
-        library.c.crowd_begin(seed, next(each for each in library.lines if each >= slots))
+        number = next(each for each in library.lines if each >= slots)
+        library.c.crowd_begin(seed, number)
         self.state = state = library.state
         state.rate, state.bits, state.keeps, state.scan, state.jitter = rate, bits, keeps, scan_us, jitter_us
-        number = next(each for each in library.lines if each >= slots)
         self.line = library.view(f"MB_LINE{number}", library.c.crowd_line())
         self.line["BitRate"], self.line["CharacterBits"] = rate, bits
-        self.most_ms = most_ms or (scan_us + jitter_us) // 1000 + 1
-        self.line["MaxScanMs"] = self.most_ms
-        port = ctypes.c_char.in_dll(library.c, "port")
-        self.port = library.view("MB_PORT", ctypes.addressof(port)) if "MB_PORT" in library.members else None
+        self.line["MaxScanMs"] = (scan_us + jitter_us) // 1000 + 1
         library.c.crowd_keeps(int(keeps))
         self.line["Restart"] = 1
+        state.now = before.now if before else 0
         self._elapsed = ctypes.addressof(self.line.place("ElapsedMs"))
         self.char_us = -(-bits * 1_000_000 // rate)
-        self.now = 0
+        self.now = before.now if before else 0
         """Until when all has happened; the last scan was a little before."""
         self.time = 0
         """Of the event that happens."""
         self.drives: list[View] = []
         self.slots: list[View] = []
         self.families: list[str] = []
-        self.models: dict[int, list[Drive]] = {}
+        self.models: dict[int, list[Drive]] = before.models if before else {}
         """What hangs on the wire, by unit address."""
         self.deaf: set[int] = set()
         """Units that hear nothing any more."""
@@ -363,8 +363,3 @@ class Hall:
     def hz(self, one: Drive) -> float:
         """The true speed of a shaft."""
         return one.shaft_hz(self.now)
-
-
-def families(mix: Sequence[int]) -> list[str]:
-    """Families by their numbers."""
-    return [FAMILIES[each] for each in mix]
