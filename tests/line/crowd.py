@@ -87,7 +87,7 @@ def _members(header: str) -> dict[str, list[tuple[str, str]]]:
     for name, body in re.findall(r"__DECLARE_STRUCT_TYPE\((\w+),(.*?)\n  \)", header, re.DOTALL):
         found[name] = [(member, kind) for kind, member in re.findall(r"(\w+) (\w+);", body) if kind in SCALARS]
     for body, name in re.findall(r"typedef struct \{\n(.*?)\n\} (\w+);", header, re.DOTALL):
-        rows = []
+        rows: list[tuple[str, str]] = []
         for kind, member in re.findall(r"__DECLARE_VAR\((\w+),(\w+)\)", body.partition("private")[0]):
             inner = (
                 [(f"{member}.value.{part}", of) for part, of in found.get(kind, [])] if kind.startswith("VFD") else []
@@ -210,7 +210,7 @@ def crowd() -> Crowd:
 def default_pins(family: str, address: int) -> dict[str, float]:
     """Pins of a drive block that can start its second model, by their places in the block."""
     pins = SETTINGS | {"Address": address, "StopWithinMs": 20_000}
-    return {path(0, name).partition(".")[2]: float(value) for name, value in pins.items()}  # type: ignore[arg-type]
+    return {path(0, name).partition(".")[2]: float(value) for name, value in pins.items()}
 
 
 @dataclass
@@ -246,7 +246,7 @@ class Hall:
         state.now = before.now if before else 0
         self._elapsed = ctypes.addressof(self.line.place("ElapsedMs"))
         self.char_us = -(-bits * 1_000_000 // rate)
-        self.now = before.now if before else 0
+        self.now: int = before.now if before else 0
         """Until when all has happened; the last scan was a little before."""
         self.time = 0
         """Of the event that happens."""

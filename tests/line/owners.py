@@ -390,11 +390,18 @@ def terminals(case: Case, family: str, mode: str, how: str) -> None:
         case.tell("stopped", "terminals ran it")
 
 
-SHARED = {"slot": slot, "slot run": slot_run}
+Happens = Callable[..., None]
+SHARED: dict[str, Happens] = {"slot": slot, "slot run": slot_run}
 PAIRS = {"address": address, "address run": address_run, "typo": address_typo,
          "wrong": wrong, "swapped": swapped, "changed": changed}  # fmt: skip
-ALONE = {"old block": old_block, "old block run": old_block_run, "old line": old_line, "old line run": old_line_run}
-RESTARTS = {"refused": refused, "terminals": terminals}
+ALONE: dict[str, Happens] = {
+    "old block": old_block,
+    "old block run": old_block_run,
+    "old line": old_line,
+    "old line run": old_line_run,
+}
+RESTARTS: dict[str, Happens] = {"refused": refused, "terminals": terminals}
+HAPPENS = SHARED | PAIRS | ALONE | RESTARTS
 
 
 def names() -> Iterator[str]:
@@ -414,7 +421,7 @@ def judge(name: str) -> Judged:
     for each in set(families) & set(FAMILIES):
         idle(each)  # a line of its own, and there is one at a time
     case = Case(name, crowd())
-    {**SHARED, **PAIRS, **ALONE, **RESTARTS}[what](case, *families)
+    HAPPENS[what](case, *families)
     return case.out
 
 

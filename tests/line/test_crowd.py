@@ -1,4 +1,4 @@
-"""Real drive blocks of all families on a virtual line, in short; a failure is judged again by its name, see the modules."""
+"""Real drive blocks of all families on a virtual line, in short; each module judges a failure again by its name."""
 
 from itertools import product
 
