@@ -25,12 +25,14 @@ REFRESH_MS = (0, 0, 300, 65_535)
 ORDERS = alike({"ATV312": 8501, "CHF": 0x1000, "GD200A": 0x2000, "JSCC": 0x1000, "MX2": 0, "PF4": 0x2000, "SN300G5": 0})
 """Where each takes its runs and stops."""
 HOW = ("silent", "refusing", "dark")
-READY_US, CALM_US, START_US = 240_000_000, 15_000_000, 60_000_000
+READY_US, CALM_US, START_US = 240_000_000, 60_000_000, 60_000_000
 """How long drives may take to be ready: 20 replies of each at the slowest line; how long nothing has changed of those
 that are not; how long from an edge to the first turn."""
 DYING_US, AFTER_US, END_US = 20_000_000, 40_000_000, 40_000_000
 """From the start to the death of some, from there to the last stop, and then to the end."""
 ALIKE = 8
+READY, TOO_SLOW = 1, 55
+"""Reasons: it may start, and nothing else is to be said; the line reads it too seldom."""
 STALE = 5000
 """The usual StaleMs."""
 NEVER = 99.0
@@ -190,15 +192,18 @@ class Line:
             if all(d["Ready"] for d in h.drives) and h.now - changed > 2_000_000:
                 break
             changed, shown = (h.now, now) if now != shown else (changed, shown)
+        slow = any(s["ReadMs"] > self.stale(at) for at, s in enumerate(h.slots))
         for at, d in enumerate(h.drives):
             read, stale = int(h.slots[at]["ReadMs"]), self.stale(at)
             if not d["Ready"]:
                 self.out.figures.setdefault("barred", d["Reason"])
-            if bool(d["Ready"]) != (read <= stale):
-                self.out.tell(
-                    "ready",
-                    f"{self._who(at)}: Ready {d['Ready']:.0f}, Reason {d['Reason']:.0f}, ReadMs {read} of {stale}",
-                )
+            shown = f"{self._who(at)}: Ready {d['Ready']:.0f}, Reason {d['Reason']:.0f}, ReadMs {read} of {stale}"
+            if read <= stale and not d["Ready"] and not slow:
+                self.out.tell("ready", shown)
+            if read > stale and not d["Ready"] and d["Reason"] != TOO_SLOW:
+                self.out.tell("reason", shown)
+            if read > stale and d["Ready"] and d["Reason"] == READY:  # it has risen since: a warning
+                self.out.tell("warning", shown)
             if not (read and int(h.slots[at]["WorstReadMs"]) >= read):
                 self.out.tell(
                     "figures", f"{self._who(at)}: ReadMs {read}, WorstReadMs {h.slots[at]['WorstReadMs']:.0f}"
@@ -219,7 +224,7 @@ class Line:
             self._keep(may)
         for at in may:
             worst = h.seen(at).worst
-            if at not in self.kept and not (worst and worst > self.stale(at)):
+            if at not in self.kept and (self.draw.strict or not worst > self.stale(at)):
                 d = h.drives[at]
                 self.out.tell(
                     "start", f"{self._who(at)}: Reason {d['Reason']:.0f}, StopReason {d['DIAGNOSIS.StopReason']:.0f}"

@@ -13,7 +13,7 @@ BOOL __DEBUG;
 #include "POUS.h"
 #include "POUS.c"
 typedef long long us;
-enum { MOST = 32, LINE_MOST = 40000, DRIVE_MOST = 20000 };
+enum { MOST = 32, LINE_MOST = 40000, DRIVE_MOST = 20000, UNKNOWN = 65535 };
 
 /* ---- the blocks: families, and lines of so many slots ---- */
 typedef struct { void (*init)(void *); void (*call)(void *, MB_SLOT *); } Family;
@@ -51,7 +51,7 @@ typedef struct { /* of one drive block; in crowd.py the same */
   int32_t block_abi, line_abi;             /* what is found in Abi instead after its call, and after that of the line; 0: as it is */
   int32_t function, address, word, every;  /* of a block of another layout: what the line would take for a stop and a command */
   int32_t nth, scans;                      /* called in each so manieth scan, as from a slower task; 0: in all */
-  us over_at, put_at, overdue_at, lost_at; /* put_at: the first call after pins were changed; -1: not called since */
+  us over_at, put_at, overdue_at, lost_at, unknown_at; /* put_at: the first call after pins were changed; -1: not called since */
 } Block;
 typedef struct { int32_t blocks, slots, rate, bits, keeps, scan, jitter, elapsed, unused; us now; } Hall;
 typedef struct { us from, to; int32_t spoilt, number; } Sent;
@@ -143,6 +143,8 @@ static void called(int at) {
   if (one->put_at < 0) one->put_at = hall.now;
   FAMILIES[one->family].call(memory[at], slot);
   int reason = word_of(at, place->reason), age = word_of(at, place->age);
+  if (age < UNKNOWN) one->unknown_at = 0; /* else it has not been read since then */
+  else { if (!one->unknown_at) one->unknown_at = hall.now; age = (hall.now - one->unknown_at) / 1000; }
   /* Ready, one run pin rises and nothing else is new: a start begins in this call */
   if (one->ready && calm && !one->pins && pins && !(pins & (pins - 1)) && reason != 0 && reason != 2 && reason != 3 && !one->lost_starts++) one->lost_at = hall.now;
   one->pins = pins; one->ready = byte_of(at, place->ready);

@@ -54,7 +54,7 @@ class Block(ctypes.Structure):
             "worst", "ready", "lost_starts", "pins", "block_abi", "line_abi", "function", "address", "word", "every",
             "nth", "scans",
         )),
-        *((name, ctypes.c_int64) for name in ("over_at", "put_at", "overdue_at", "lost_at")),
+        *((name, ctypes.c_int64) for name in ("over_at", "put_at", "overdue_at", "lost_at", "unknown_at")),
     ]  # fmt: skip
 
 
