@@ -350,7 +350,7 @@ def refused(case: Case, family: str, mode: str, how: str) -> None:
     if not case.start(0, one):
         return
     case.joined_us = 1 << 60
-    one.be_strict(h.now, 30 * S)
+    one.be_strict(h.now, 15 * S)
     pins = {"RunForward": 0, mode: 1}
     if how == "restart":
         h.put(0, **pins)
