@@ -4,10 +4,14 @@
  * that it takes or gives; "always CALL RESULT" from now on; "granted RATE"; "handle N"; "receive", "send N" call LX_Port,
  * and "scan" the program of softplc.st with its line;
  * "will PLACE COUNT MS" is what the line gives next, COUNT bytes of PLACE + 1; "process N" is who asks, as after a fork;
- * "thread N" has N calls that receive made by a thread that ends; "again" starts the PLC anew without ending its process, "unload" is
+ * "thread N" has N calls that receive made by a thread that ends;
+ * "torn N" forks N programs whose will changes in each call and which a signal ends, and prints what they have sent; "again" starts the PLC anew without ending its process, "unload" is
  * what dlclose calls. Each but "again" prints a line with what the block shows, what has gone out in it, and what it has called. A call that nothing was said of works, and nothing is to be read. */
 #include <errno.h>
 #include <pthread.h>
+#include <signal.h>
+#include <sys/time.h>
+#include <sys/wait.h>
 
 #include "iec_std_lib.h"
 #include "accessor.h"
@@ -22,6 +26,8 @@ enum { MOST = 256, FIRST = 3, NOTHING = -1000 };
 
 extern void *__dso_handle __attribute__((visibility("hidden")));
 void __cxa_finalize(void *);
+int fork(void);
+void _exit(int);
 
 static LX_PORT port;
 static DESK desk;
@@ -138,6 +144,37 @@ static void *calls(void *number) {
   return 0;
 }
 
+static void ended(int signal) {
+  (void)signal;
+  *wire = 0;
+  __cxa_finalize(&__dso_handle);
+  puts(wire);
+  fflush(stdout);
+  _exit(0);
+}
+
+/* The signal comes at any instruction of a call: also while a will is being written. */
+static void torn(long programs) {
+  fflush(stdout);
+  for (long each = 0; each < programs; each++) {
+    if (fork()) {
+      wait(0);
+      continue;
+    }
+    const struct itimerval soon = {{0, 0}, {0, 300 + each % 97}};
+    signal(SIGALRM, ended);
+    port.TXCOUNT.value = 0;
+    port.WILLCOUNT.value = 40;
+    LX_PORT_body__(&port);
+    setitimer(ITIMER_REAL, &soon, 0);
+    for (int turn = 0;; turn++) {
+      memset(port.WILL.value.table, turn % 251 + 1, 40);
+      LX_PORT_body__(&port);
+      *did = 0;
+    }
+  }
+}
+
 static void show(int error, int heard, int elapsed) {
   printf("%d %d %d %s %s\n", error, heard, elapsed, *wire ? wire : "-", *did ? did + 1 : "-");
   *did = *wire = 0;
@@ -177,6 +214,7 @@ int main(void) {
     } else {
       if (scanf("%ld", &value) != 1) return 2;
       if (!strcmp(word, "now")) now_ms = value;
+      else if (!strcmp(word, "torn")) torn(value);
       else if (!strcmp(word, "process")) process = (int)value;
       else if (!strcmp(word, "will")) {
         int length, wait;

@@ -7,6 +7,7 @@ import subprocess
 from collections.abc import Callable
 from dataclasses import dataclass
 from errno import EAGAIN, EBADF, EBUSY, EINTR, EIO, ENOENT, ENOTSUP, ENOTTY
+from pathlib import Path
 
 import pytest
 from tests.blocks.toolchains import FOUND
@@ -39,9 +40,14 @@ def _call(line: str) -> Call:
 
 
 @pytest.fixture(scope="module", params=range(max(1, len(FOUND))))
-def port(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Told:
-    """Commands to the block by each line of matiec -> what each of its calls shows."""
-    program = built(tmp_path_factory.mktemp("linuxport"), FOUND[request.param], "linuxport.c")
+def program(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The block by each line of matiec, on that system."""
+    return built(tmp_path_factory.mktemp("linuxport"), FOUND[request.param], "linuxport.c")
+
+
+@pytest.fixture
+def port(program: Path) -> Told:
+    """Commands to the block -> what each of its calls shows."""
 
     def told(*commands: str) -> list[Call]:
         done = subprocess.run([program], input="\n".join(commands), capture_output=True, text=True, check=True)
@@ -272,3 +278,13 @@ def test_a_thread_for_every_scan_ends_no_program(port: Told) -> None:
     ended = port(_will(0), *["thread 1"] * 200)
     assert {call.sent for call in ended} == {""}
     assert all("close" not in call.did for call in ended)
+
+
+@pytest.mark.thorough
+def test_a_will_that_is_being_written_when_a_signal_ends_the_program_is_not_sent_in_parts(program: Path) -> None:
+    done = subprocess.run([program], input="torn 1000\n", capture_output=True, text=True, check=True)
+    sent = done.stdout.split()
+    assert len(sent) == 1000
+    for wire in sent:
+        assert len(wire) == 2 * 2 * 40
+        assert wire == wire[:2] * 80
