@@ -268,7 +268,9 @@ def test_a_will_that_the_driver_does_not_take_at_once_ends_all_the_same(port: To
 
 
 def test_the_end_of_the_thread_that_calls_sends_the_will_and_the_next_call_opens_the_port_again(port: Told) -> None:
-    ended, after, unloaded = port("will 0 2 30", "thread 200", "now 9000", "receive", "will 0 0 0", "receive", "unload")[:3]
+    ended, after, unloaded = port(
+        "will 0 2 30", "thread 200", "now 9000", "receive", "will 0 0 0", "receive", "unload"
+    )[:3]
     assert (ended.sent, ended.did[-1]) == ("0101" * 2, "close")
     assert after.did[0] == "open"
     assert unloaded.error == 0
