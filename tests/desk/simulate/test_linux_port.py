@@ -7,6 +7,7 @@ import subprocess
 from collections.abc import Callable
 from dataclasses import dataclass
 from errno import EAGAIN, EBADF, EBUSY, EINTR, EIO, ENOENT, ENOTSUP, ENOTTY
+from itertools import pairwise
 from pathlib import Path
 
 import pytest
@@ -239,7 +240,7 @@ def test_a_program_that_ends_takes_no_longer_than_its_bound(port: Told, wills: i
     times, closed = _ended(end)
     assert (len(times), closed) == (2 * wills, True)
     assert times[-1] <= most
-    assert min(later - before for before, later in zip(times, times[1:], strict=False)) >= most // (2 * wills + 1) - 1
+    assert min(later - before for before, later in pairwise(times)) >= most // (2 * wills + 1) - 1
 
 
 def test_a_restart_takes_back_what_the_program_before_has_willed(port: Told) -> None:

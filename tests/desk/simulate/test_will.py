@@ -1,4 +1,4 @@
-"""The end of a soft PLC whose motor turns, over a pseudo-terminal: the line's last will stops the drive. It needs iec2c.
+"""The end of a soft PLC whose motor turns, over a pseudo-terminal: its last will stops the drive. It needs iec2c.
 
 A simulated drive without a watchdog judges it: nothing else would stop that motor.
 """
