@@ -1,7 +1,7 @@
 """What another master reads proves nothing: evidence of standstill, of a trip, of a run that has ended.
 
-The slot says of each reply whether it may be one to somebody else, and counts those that nobody has asked for. Here both
-are set by hand, between the line and the drive block.
+The slot says of each reply whether it may be one to somebody else, and counts those that nobody has asked for. Both
+are set here by hand, between the line and the drive block.
 """
 
 import pytest
