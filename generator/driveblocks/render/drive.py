@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from decimal import Decimal
+from itertools import pairwise
 
 from driveblocks.maps import model, names
 from driveblocks.maps.form import is_bit
@@ -358,7 +359,7 @@ def _running(drive: Drive) -> Iterator[Condition]:
 def _gap(turns: list[int], number: int) -> int:
     """The most turns from one of a read to the next one."""
     places = [place for place, each in enumerate(turns) if each == number]
-    return max((after - before - 1) % len(turns) + 1 for before, after in zip(places, places[1:] + places[:1]))
+    return max(after - before for before, after in pairwise([*places, places[0] + len(turns)]))
 
 
 def _showing(drive: Drive, number: dict[int, int], told: Decoded) -> Showing:
