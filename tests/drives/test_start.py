@@ -227,3 +227,29 @@ def test_a_pulse_is_as_long_as_the_map_says() -> None:
     assert [each.word for each in frames[:2]] == [1, 0]
     assert frames[1].ms - frames[0].ms >= 100
     bench.until(lambda: bench.drives[0].hertz > 24.0)
+
+
+def test_ready_is_shown_only_where_a_rising_pin_starts_the_motor() -> None:
+    """Whatever comes: a pin that rises in the call after a Ready starts, and beside it stands no reason of before."""
+    bench = Bench("CHF").running()
+    bench.drives[0].keypad_stop()
+    bench.until(lambda: bench.reason() == "BY_ITSELF", 9000)
+    bench.run(4000)
+    assert bench.shows("StopConfirmed")
+    assert (bench.reason(), bench.shows("Ready")) == ("BY_ITSELF", False)
+    bench.put(RunForward=False).scan()
+    assert (bench.reason(), bench.shows("Ready")) == ("READY", True)
+    bench.put(RunForward=True).scan()
+    assert bench.reason() == "STARTING"
+    assert not bench.shows("Ready")
+
+
+def test_a_held_pin_takes_ready_away() -> None:
+    bench = Bench("CHF").put(RunForward=True)
+    bench.run(3000)
+    assert bench.shows("StopConfirmed")
+    assert not bench.shows("Ready")
+    bench.put(RunForward=False).scan()
+    assert bench.shows("Ready")
+    bench.put(JogForward=True).scan()
+    assert bench.reason() == "STARTING"

@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from decimal import Decimal
+from itertools import pairwise
 
 from driveblocks.maps import model, names
 from driveblocks.maps.form import is_bit
@@ -24,6 +25,7 @@ from driveblocks.maps.polls import (
 from driveblocks.maps.revision import checked
 from driveblocks.maps.trust import second_hand
 from driveblocks.maps.view import error_number
+from driveblocks.modbus.checksum import crc16
 from driveblocks.modbus.layout import COIL_ON
 from driveblocks.render import context
 from driveblocks.render.constants import ORDERS, STOPS
@@ -219,6 +221,10 @@ class Reading:
     measure_reads: list[int]
     young_reads: list[int]
     """Those of what is shown while they are young: measures, and the code of a warning."""
+    running_reads: list[int]
+    """Those that show whether it runs."""
+    status_polls: int
+    """In how many polls of the turns all fast ones are read again, at the most."""
     several: bool
     """Not all are read by one function."""
     identity: Identified | None
@@ -283,6 +289,7 @@ class Own:
 
     source: str
     prefix: str
+    family_number: int
     unit: UnitAddress
     dialect: context.Refusal
     two_byte_count: bool
@@ -337,9 +344,22 @@ def _reading(drive: Drive) -> Reading:
         verify_reads=sorted({number[each] for each in meaning_words(drive)}),
         measure_reads=sorted({number[one.register] for one in operation.measures}),
         young_reads=sorted({number[each] for each in young_words(drive)}),
+        running_reads=sorted({number[each.register] for each in _running(drive)}),
+        status_polls=max(_gap(turns, index) for index in set(turns) if reads[index - 1].fast),
         several=len({read.function for read in reads}) > 1,
         identity=_identity(drive),
     )
+
+
+def _running(drive: Drive) -> Iterator[Condition]:
+    """What shows whether the motor runs."""
+    return (each for one in drive.operation.status if one.shows == "running" for each in one.any)
+
+
+def _gap(turns: list[int], number: int) -> int:
+    """The most turns from one of a read to the next one."""
+    places = [place for place, each in enumerate(turns) if each == number]
+    return max(after - before for before, after in pairwise([*places, places[0] + len(turns)]))
 
 
 def _showing(drive: Drive, number: dict[int, int], told: Decoded) -> Showing:
@@ -397,12 +417,18 @@ def _ordering(drive: Drive) -> Ordering:
     )
 
 
+def family_number(prefix: str) -> int:
+    """What the slot of a drive is marked with, 1 to 65535: the same in every version, another one for each family."""
+    return crc16(prefix.encode()) or 1
+
+
 def _own(drive: Drive) -> Own:
     reply = context.reply(drive)
     stop = next(one for one in drive.operation.commands if one.does == "stop")
     return Own(
         source=context.source_of(drive, stop.source),
         prefix=drive.prefix,
+        family_number=family_number(drive.prefix),
         unit=drive.serial.unit,
         dialect=reply.form,
         two_byte_count=reply.two_byte_count,
