@@ -1,6 +1,6 @@
 """What runs for minutes and hours, one by one: `make long WHAT=line`; without WHAT the list.
 
-SEED, TIMES and SECONDS are those of the environment, or of `make long WHAT=matrix TIMES=1`.
+SEED, FIRST, TIMES and SECONDS are those of the environment, or of `make long WHAT=matrix TIMES=1`.
 """
 
 import os
@@ -66,6 +66,17 @@ RUNS = {
         "half an hour",
         ("tests.line.long --page",),
     ),
+    "budget": Run(
+        "10,000 random lines of real drive blocks: ages, stops, whom others stop; eight of each family while some die",
+        "half an hour",
+        ("tests.line.budget --alike", "tests.line.budget --first {FIRST}"),
+    ),
+    "panel": Run("2,000 walks beside a second master", "3 minutes", ("tests.line.panel --first {FIRST}",)),
+    "owners": Run(
+        "two makes on one slot, at one address, at each other's; other versions; refused stops of a restart",
+        "a minute",
+        ("tests.line.owners",),
+    ),
     "matrix": Run(
         "every mode x event x state on second models of the drives, four times, and random walks (TIMES)",
         "an hour",
@@ -99,7 +110,7 @@ RUNS = {
 
 def commands(name: str) -> list[list[str]]:
     """The commands of a run, by the Python or the `driveblocks` of this environment."""
-    given = {"SEED": str(random.randrange(10**9)), "TIMES": "4", "SECONDS": "3600"} | dict(os.environ)
+    given = {"SEED": str(random.randrange(10**9)), "TIMES": "4", "FIRST": "0", "SECONDS": "3600"} | dict(os.environ)
     found = [shlex.split(text.format_map(given)) for text in RUNS[name].modules]
     product = str(Path(sys.executable).with_name("driveblocks"))
     return [[product, *words[1:]] if words[0] == "driveblocks" else [sys.executable, "-m", *words] for words in found]

@@ -2,6 +2,11 @@
 
 from dataclasses import astuple, dataclass, fields
 
+from driveblocks.render.environment import ABI
+
+ABI_WORD = 256 * ABI
+"""What a block and a line of one version write into a slot."""
+
 
 @dataclass(frozen=True)
 class Kind:
@@ -39,9 +44,17 @@ def counted(request: bytes, number: int) -> bytes:
     return request[:2] + bytes([len(data)]) + data
 
 
+def check(*values: int) -> int:
+    """Of a stop: Number, Address, FunctionCode, Quantity, Unit, Family and its word, as a polynomial by a prime."""
+    total = 1
+    for value in values:
+        total = (total * 40503 + value) % 65521
+    return total
+
+
 def header() -> str:
     """The same table in C."""
     names = "".join(f"int {field.name}; " for field in fields(Kind))
     rows = ",\n".join("  {" + ", ".join(map(str, astuple(kind))) + "}" for kind in KINDS)
-    table = f"static const Kind KINDS[] = {{\n{rows}}};\n"
+    table = f"enum {{ ABI_WORD = {ABI_WORD} }};\nstatic const Kind KINDS[] = {{\n{rows}}};\n"
     return f"typedef struct {{ {names}}} Kind;\n#define KIND_COUNT {len(KINDS)}\n{table}"

@@ -13,7 +13,7 @@ from random import Random
 from typing import Self
 
 from tests.blocks.library import sources
-from tests.line.drives import KINDS, Kind, counted
+from tests.line.drives import ABI_WORD, KINDS, Kind, check, counted
 
 from driveblocks.reference.checksum import crc16, lrc
 from driveblocks.render.results import RESULTS
@@ -25,6 +25,9 @@ STOP, COMMAND, PARAMETER, POLL = range(4)
 NAMES = {result.code: result.name for result in RESULTS}
 RX = [f"Port.Rx[{place}]" for place in range(256)]
 ALIVE = [f"Slots[{slot}].Alive" for slot in range(32)]
+ABIS = [f"Slots[{slot}].Abi" for slot in range(32)]
+CHECKED = ("Number", "Address", "FunctionCode", "Quantity", "Unit", "Family")
+"""Fields of a stop that its check is of, before its word."""
 Edit = Callable[[str], str]
 
 
@@ -170,6 +173,7 @@ class Bench:
         kind, path = self.kind, f"Slots[{slot}]."
         fields = {
             "UnitAddress": slot + 1,
+            "Family": self.config.kind + 1,
             "TurnRoundMs": self.config.turn_ms,
             "LongestMs": self.config.longest_ms,
             "ExceptionAdd": kind.exception_add,
@@ -209,6 +213,16 @@ class Bench:
         """Set fields of a slot, as its drive block does."""
         for name, value in fields.items():
             self.block[f"Slots[{slot}].{name}"] = value
+        if "UnitAddress" in fields:
+            for box in range(4):
+                self._own(slot, box)
+
+    def _own(self, slot: int, box: int) -> None:
+        """Write whose a request is, as its drive block does."""
+        path = f"Slots[{slot}].Ask[{box}]."
+        self.block[path + "Unit"], self.block[path + "Family"] = (self.slot(slot, n) for n in ("UnitAddress", "Family"))
+        if box == STOP:
+            self.block[path + "Check"] = check(*(self[path + name] for name in CHECKED), self[path + "Words[0]"])
 
     def fill(self, slot: int, box: int, function: int, address: int, *, quantity: int = 1, word: int = 0) -> None:
         """Fill a compartment without asking."""
@@ -217,6 +231,7 @@ class Bench:
         self.block[path + "Address"] = address
         self.block[path + "Quantity"] = quantity
         self.block[path + "Words"] = [word]
+        self._own(slot, box)
 
     def ask(self, slot: int, box: int, function: int, address: int, *, quantity: int = 1, word: int = 0) -> int:
         """Fill a compartment and ask; the Number."""
@@ -227,6 +242,7 @@ class Bench:
         """Ask again what the compartment holds; the Number."""
         number = self.slot(slot, f"Ask[{box}].Number") % 65535 + 1
         self.block[f"Slots[{slot}].Ask[{box}].Number"] = number
+        self._own(slot, box)
         if box == PARAMETER:
             self.put(slot, ParameterCleared=number)
         return number
@@ -268,6 +284,7 @@ class Bench:
         for slot in self.attended:
             self._alive[slot] = (self._alive[slot] + 1) % 256
             self.block[ALIVE[slot]] = self._alive[slot]
+            self.block[ABIS[slot]] = ABI_WORD
         self.block["ElapsedMs"] = self.now // 1000 - self.called if elapsed is None else elapsed
         self.called = self.now // 1000
         self.block.scan()
