@@ -12,6 +12,7 @@ from driveblocks.maps.pair import places, whole
 from driveblocks.maps.plan import writes_by
 from driveblocks.maps.polls import Poll, fast_words, polls, schedule, slow_words
 from driveblocks.maps.revision import checked
+from driveblocks.maps.rivals import first_reads
 from driveblocks.maps.trust import second_hand
 from driveblocks.maps.view import error_number
 from driveblocks.modbus.layout import COIL_ON
@@ -70,7 +71,7 @@ def facts(drive: Drive) -> dict[str, str]:
         computed = pin.endswith("speed") and "output_frequency" in measured
         found[f"shows_{pin}"] = str(pin in shown or computed).upper()
     for name, member in (("may_stop", "MayStop"), ("known", "Known"), ("wrong", "Wrong")):
-        found[name] = f"Identity.{member}" if drive.identity else str(name != "wrong").upper()
+        found[name] = f"Identity.{member}" if first_reads(drive) else str(name != "wrong").upper()
     running = next(one for one in drive.operation.status if one.shows == "running")
     found["running"] = _any(_holds(drive, each) for each in running.any)
     by_bus = drive.operation.commanded_by.all if drive.operation.commanded_by else ()

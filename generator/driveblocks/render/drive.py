@@ -3,16 +3,17 @@
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from decimal import Decimal
+from functools import reduce
+from operator import or_
 
 from driveblocks.maps import model, names
-from driveblocks.maps.form import is_bit
+from driveblocks.maps.form import address_text, is_bit
 from driveblocks.maps.model import Command, Condition, Drive, Scale, State, Status, UnitAddress, kept
 from driveblocks.maps.pair import places
 from driveblocks.maps.plan import writes_by
 from driveblocks.maps.polls import (
     Poll,
     fast_words,
-    identity_read,
     meaning_words,
     other_words,
     polls,
@@ -22,6 +23,7 @@ from driveblocks.maps.polls import (
     young_words,
 )
 from driveblocks.maps.revision import checked
+from driveblocks.maps.rivals import First, against, first_reads
 from driveblocks.maps.trust import second_hand
 from driveblocks.maps.view import error_number
 from driveblocks.modbus.layout import COIL_ON
@@ -31,6 +33,8 @@ from driveblocks.render.context import Word, word_input
 from driveblocks.render.decoded import Call, Decoded
 from driveblocks.render.expression import Test
 
+BUSY = 6
+"""The refusal of a busy drive in the standard, for maps without codes (MODBUS Application Protocol V1.1b3, 7)."""
 CONSTANTS = {
     "stop": "RAMP_STOP", "quick_stop": "QUICK_STOP", "coast_stop": "COAST_STOP", "jog_stop": "JOG_STOP",
     "run_forward": "GO_FORWARD", "run_reverse": "GO_REVERSE", "jog_forward": "JOG_AHEAD", "jog_reverse": "JOG_BACK",
@@ -120,13 +124,28 @@ class Masked:
 
 
 @dataclass(frozen=True)
-class Identified:
-    """The one read that shows the family."""
+class Shown:
+    """A read that shows the family: see `rivals.First`; `plate` is an identity of the map, by its tests."""
 
     function: int
     address: int
     words: int
+    shows: str
+    values: tuple[int, ...]
+    mask: int
     tests: list[Masked]
+
+
+@dataclass(frozen=True)
+class Identified:
+    """The reads that show the family."""
+
+    plate: bool
+    """The map has an identity; else other makes are told apart."""
+    reads: list[Shown]
+    where: str
+    busy: int
+    """The refusal that says nothing of it; 0: none."""
     source: str
 
 
@@ -404,14 +423,28 @@ def _own(drive: Drive) -> Own:
         source=context.source_of(drive, stop.source),
         prefix=drive.prefix,
         unit=drive.serial.unit,
-        dialect=reply.form,
+        dialect=_refusals(drive, reply.form),
         two_byte_count=reply.two_byte_count,
-        busy=next((error_number(one) or 0 for one in drive.errors.codes if one.busy), 0),
+        busy=_busy(drive),
         silence=_silence(drive),
         second_hand=second_hand(drive),
         checked=checked(drive),
         feeds=drive.watchdog.feeds if drive.watchdog else None,
     )
+
+
+def _refusals(drive: Drive, form: context.Refusal) -> context.Refusal:
+    """How the drive refuses; where it has to be told apart from another make, as that does, too."""
+    others = [context.reply(other).form for other in against(drive)]
+    for other in others:
+        if not form.function and other.function:
+            form = replace(form, function=other.function, address=other.address)
+        form = replace(form, add=form.add or other.add)
+    return form
+
+
+def _busy(drive: Drive) -> int:
+    return next((error_number(one) or 0 for one in drive.errors.codes if one.busy), 0)
 
 
 def _writes(drive: Drive, one: Command, stop: Command) -> Iterator[Write]:
@@ -486,14 +519,27 @@ def _read(drive: Drive, number: int, places: list[Word], reads: tuple[Poll, ...]
 
 
 def _identity(drive: Drive) -> Identified | None:
-    read = identity_read(drive)
-    if read is None or drive.identity is None:
+    firsts = first_reads(drive)
+    if not firsts:
         return None
-    tests = [_condition(drive, each) for each in drive.identity.all]
-    words = [each.register - read.address for each in drive.identity.all]
-    masked = [Masked(index, test.mask or 0xFFFF, test.value) for index, test in zip(words, tests, strict=True)]
-    source = context.source_of(drive, drive.identity.source)
-    return Identified(read.function, read.address, read.words, masked, source)
+    tests = _plate(drive, firsts[0].read)
+    reads = [_shown(each, tests) for each in firsts]
+    sources = [context.source_of(drive, drive.identity.source)] if drive.identity else [each.source for each in firsts]
+    where = " and ".join(f"at {address_text(each.address)}" for each in reads)
+    return Identified(bool(tests), reads, where, _busy(drive) or BUSY * (not drive.errors.codes), "; ".join(sources))
+
+
+def _shown(first: First, tests: list[Masked]) -> Shown:
+    mask = reduce(or_, first.values, 0)
+    read, shows = first.read, "plate" if tests else first.shows
+    return Shown(read.function, read.address, read.words, shows, first.values, mask, tests)
+
+
+def _plate(drive: Drive, read: Poll) -> list[Masked]:
+    """The tests of the map's identity, where it has one."""
+    conditions = drive.identity.all if drive.identity else ()
+    tests = [(each.register - read.address, _condition(drive, each)) for each in conditions]
+    return [Masked(index, test.mask or 0xFFFF, test.value) for index, test in tests]
 
 
 def _commanded_by(drive: Drive, number: dict[int, int], told: Decoded) -> InCommand | None:
