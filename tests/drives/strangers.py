@@ -39,6 +39,11 @@ class Model(SimulatedDrive):
         return self.drive.unit
 
     @property
+    def mode(self) -> str:
+        """As its text has it."""
+        return self.drive.state(self.now)
+
+    @property
     def turn_us(self) -> int:  # type: ignore[override]
         """Until its reply begins."""
         return 1000
@@ -65,7 +70,7 @@ class Strange(Bench):
         self.there, self.options = drives, options
         super().__init__(*blocks, stations=stations(blocks), start=False)
 
-    def simulated(self, habits: Habits, ascii_: bool) -> list[Any]:
+    def simulated(self, habits: Habits, ascii_: bool) -> list[Any]:  # noqa: ARG002  (as the bench calls it)
         """The strangers."""
         return [Model(family, at, **self.options) for at, family in enumerate(self.there, 1)]
 

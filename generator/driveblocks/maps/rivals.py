@@ -10,7 +10,7 @@ from typing import Literal
 from driveblocks.maps import catalog
 from driveblocks.maps.form import Span, address_text
 from driveblocks.maps.load import load
-from driveblocks.maps.model import Command, Drive, Register, Step, Value, kept
+from driveblocks.maps.model import Command, Drive, Register, Setting, Step, Value, kept
 from driveblocks.maps.pair import whole
 from driveblocks.maps.plan import plan, reads_by, writes_by
 from driveblocks.maps.polls import Poll, fast_words, identity_read
@@ -91,18 +91,23 @@ def _holds(write: Command | Step, word: int) -> bool:
 
 def _meaning(drive: Drive, write: Command | Step, other: Drive) -> tuple[Meaning, str]:
     register, function = write.register, writes_by(drive, write.register)
-    found = other.row_at(register, "w")
     if function not in {each.code for each in other.functions}:
         return "refused", f"it has no function {function:02X}H"
     if any(each.register == register for one in other.operation.commands for each in one.writes):
         return _command(other, register, _word(write))
     if register in whole(other, other.operation.reference.register):
         return "other", "its speed reference"
+    return _register(other, register)
+
+
+def _register(other: Drive, register: int) -> tuple[Meaning, str]:
+    """A register that is neither a command nor the reference."""
+    found = other.row_at(register, "w")
+    areas = (each.addresses for each in other.areas if "w" in each.access)
     if found is not None and "w" not in (found[1].access or found[0].access):
         return "refused", f'its "{found[1].name}", which is only read'
     if found is not None and not found[1].unused:
         return "other", f'its "{found[1].name}"'
-    areas = (each.addresses for each in other.areas if "w" in each.access)
     if any(register in span for span in (*areas, *other.ram_only)):
         return "other", "one of its parameters"
     return "unknown", "its map does not list it"
@@ -142,7 +147,7 @@ def first_reads(drive: Drive) -> tuple[First, ...]:
     left = against(drive)
     found: list[First] = []
     for each in _candidates(drive, left):
-        if len(found) < MOST_READS and (told := [other for other in left if _tells(drive, each, other)]):
+        if len(found) < MOST_READS and (told := [other for other in left if _tells(each, other)]):
             found.append(each)
             left = [other for other in left if other not in told]
     return tuple(found)
@@ -165,9 +170,9 @@ def _harms(drive: Drive, other: Drive) -> bool:
 
 def _candidates(drive: Drive, others: Iterable[Drive]) -> Iterator[First]:
     """What may tell, what says most first: its own address; a listed status; what it has; what only the other has."""
-    setting = next((each for each in drive.settings if each.id == drive.serial.unit.setting), None)
-    if setting is not None and setting.register is not None and _readable(drive, setting.register):
-        yield First(_read(drive, setting.register), "unit", (), f"{setting.id}, {setting.name}", setting.source)
+    setting = _address(drive)
+    if setting is not None:
+        yield First(_read(drive, setting.register or 0), "unit", (), f"{setting.id}, {setting.name}", setting.source)
     words = sorted(each for each in fast_words(drive) if _readable(drive, each))
     rows = [(each, found) for each in words if (found := drive.row_at(each)) is not None]
     some = [
@@ -188,6 +193,17 @@ def _candidates(drive: Drive, others: Iterable[Drive]) -> Iterator[First]:
                 yield First(_read(other, each), "refusal", (), f"{row.name} of {other.prefix}", source)
 
 
+def _address(drive: Drive) -> Setting | None:
+    found = (each for each in drive.settings if each.id == drive.serial.unit.setting and each.register is not None)
+    return next((each for each in found if _readable(drive, each.register or 0)), None)
+
+
+def own_address(drive: Drive) -> int | None:
+    """The register in which a drive shows its unit address, where its map has one."""
+    setting = _address(drive)
+    return setting.register if setting else None
+
+
 def _read(drive: Drive, register: int) -> Poll:
     words = whole(drive, register)
     return Poll(reads_by(drive, register), min(words), len(words), fast=True)
@@ -197,7 +213,7 @@ def _readable(drive: Drive, register: int) -> bool:
     return any(register in span for span in plan(drive).readable)
 
 
-def _tells(drive: Drive, first: First, other: Drive) -> bool:
+def _tells(first: First, other: Drive) -> bool:
     """Whether a drive of another family answers a read otherwise, by its map."""
     register = first.read.address
     row = other.register_at(register)
@@ -241,7 +257,7 @@ def told_apart(drive: Drive, other: Drive) -> str:
     """By what the block of a family sees that a drive is of another one; empty: by nothing."""
     if drive.identity is not None:
         return "its identity"
-    return next((said(each) for each in first_reads(drive) if _tells(drive, each, other)), "")
+    return next((said(each) for each in first_reads(drive) if _tells(each, other)), "")
 
 
 def said(first: First) -> str:

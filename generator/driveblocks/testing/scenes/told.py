@@ -4,6 +4,7 @@ from collections.abc import Iterator, Mapping
 
 from driveblocks.maps.form import is_bit
 from driveblocks.maps.model import Command, Drive
+from driveblocks.maps.rivals import first_reads
 from driveblocks.reference.command import Commands
 from driveblocks.testing.scenes.ability import Ability
 from driveblocks.testing.scenes.drive import busy, mark, simulated
@@ -113,7 +114,7 @@ LEFT: Shows = {
 def _not_blank(drive: Drive) -> Iterator[Step]:
     left = {f"Slots[0].{key}": value for key, value in LEFT.items()}
     at_once = known(drive)
-    if drive.identity:
+    if first_reads(drive):
         del at_once["Ask[0].FunctionCode"]  # no stop may be sent before the drive has said what it is
     held: Shows = left | _junk(known(drive)) | {"Pins.Settings.KeepWord": word(KEPT)}
     yield Step("memory holds what was there before", held, ms=60, shows=_slot(at_once) | NOTHING_STARTED | {
