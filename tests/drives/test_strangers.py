@@ -145,9 +145,9 @@ def test_a_silent_drive_gets_its_stop_and_one_whose_answers_are_damaged_gets_non
     assert [each for each in silent.restart().run(5000) if not each.read]
     damaged = Strange(("PF525",), ("PF525",))
     damaged.faults = Faults(garbled=1000)
-    assert all(each.read for each in damaged.restart().run(9000))
+    assert all(each.read for each in damaged.restart().wait(25_000))
     damaged.deaf, damaged.faults = {1}, Faults()
-    assert all(each.read for each in damaged.run(20_000))
+    assert all(each.read for each in damaged.wait(30_000))
     assert damaged.block["TheLine.StopOverdue"]
     damaged.deaf = set()
     damaged.stopped()
