@@ -260,12 +260,17 @@ def told_apart(drive: Drive, other: Drive) -> str:
     return next((said(each) for each in first_reads(drive) if _tells(each, other)), "")
 
 
+def warning(pair: Pair) -> str:
+    """A pair as a sentence."""
+    does = "may start the motor" if pair.worst.means == "motion" else "writes another register"
+    told = f"its block sees that by {pair.told}" if pair.told else "nothing tells the two apart: check the addresses"
+    return f"A stop of {pair.block.prefix} at a {pair.drive.prefix} {does}; {told}."
+
+
 def said(first: First) -> str:
     """A first read in words."""
-    where = f"{address_text(first.read.address)} ({first.name})"
-    return {
-        "unit": f"{where} holds its address", "refusal": f"{where} is refused",
-    }.get(first.shows, f"{where} can be read" + (" and has a listed value" if first.values else ""))  # fmt: skip
+    words = {"unit": "its own unit address", "refusal": "what only the other has", "any": "what only it has"}
+    return f"{address_text(first.read.address)}, {words.get(first.shows, 'a value that only it shows')} ({first.name})"
 
 
 def unknown(drives: Iterable[Drive]) -> list[tuple[Drive, Drive]]:
