@@ -12,8 +12,9 @@ from driveblocks.maps.form import Span, address_text
 from driveblocks.maps.load import load
 from driveblocks.maps.model import Command, Drive, Register, Setting, Step, Value, kept
 from driveblocks.maps.pair import whole
-from driveblocks.maps.plan import plan, reads_by, writes_by
+from driveblocks.maps.plan import dialect, plan, reads_by, writes_by
 from driveblocks.maps.polls import Poll, fast_words, identity_read
+from driveblocks.modbus.layout import Dialect
 
 Meaning = Literal["motion", "other", "unknown", "stop", "refused"]
 """Of a written word: it may move the motor; it is something else; the map does not say; it stops; it is not taken."""
@@ -157,6 +158,17 @@ def against(drive: Drive) -> list[Drive]:
     """The shipped families from which the block of this one has to be told apart; an identity does it by itself."""
     others = [] if drive.identity else shipped()
     return [other for other in others if other.prefix != drive.prefix and _harms(drive, other)]
+
+
+def refusals(drive: Drive) -> Dialect:
+    """How a family refuses, and where it has to be told from another, that one, too: both may answer a first read."""
+    own = dialect(drive)
+    function, address, add = own.function or 0, own.address or 0, own.added if own.address is None else 0
+    for other in map(dialect, against(drive)):
+        if not function and other.address is not None:
+            function, address = other.function or 0, other.address
+        add = add or (other.added if other.address is None else 0)
+    return Dialect(add, function, address, own.two_byte_count)
 
 
 def shipped() -> list[Drive]:

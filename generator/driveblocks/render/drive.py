@@ -23,10 +23,10 @@ from driveblocks.maps.polls import (
     young_words,
 )
 from driveblocks.maps.revision import checked
-from driveblocks.maps.rivals import First, against, first_reads
+from driveblocks.maps.rivals import First, first_reads, refusals
 from driveblocks.maps.trust import second_hand
 from driveblocks.maps.view import error_number
-from driveblocks.modbus.layout import COIL_ON
+from driveblocks.modbus.layout import COIL_ON, Dialect
 from driveblocks.render import context
 from driveblocks.render.constants import ORDERS, STOPS
 from driveblocks.render.context import Word, word_input
@@ -303,7 +303,7 @@ class Own:
     source: str
     prefix: str
     unit: UnitAddress
-    dialect: context.Refusal
+    dialect: Dialect
     two_byte_count: bool
     busy: int
     silence: int
@@ -423,7 +423,7 @@ def _own(drive: Drive) -> Own:
         source=context.source_of(drive, stop.source),
         prefix=drive.prefix,
         unit=drive.serial.unit,
-        dialect=_refusals(drive, reply.form),
+        dialect=refusals(drive),
         two_byte_count=reply.two_byte_count,
         busy=_busy(drive),
         silence=_silence(drive),
@@ -431,16 +431,6 @@ def _own(drive: Drive) -> Own:
         checked=checked(drive),
         feeds=drive.watchdog.feeds if drive.watchdog else None,
     )
-
-
-def _refusals(drive: Drive, form: context.Refusal) -> context.Refusal:
-    """How the drive refuses; where it has to be told apart from another make, as that does, too."""
-    others = [context.reply(other).form for other in against(drive)]
-    for other in others:
-        if not form.function and other.function:
-            form = replace(form, function=other.function, address=other.address)
-        form = replace(form, add=form.add or other.add)
-    return form
 
 
 def _busy(drive: Drive) -> int:

@@ -558,7 +558,7 @@ def _nine_faults(can: Ability) -> Iterator[Step]:
     } | {"Motor.Diagnosis.FirstFaultCode": first if can.code else 0})  # fmt: skip
     yield Step("the PLC restarts", {"Pins.Restart": True}, ms=40)
     yield Step("it has stopped it", {"Pins.Restart": False}, "Motor.StopConfirmed", 3000)
-    yield Step("its first fault", {"Fate.Trips": second}, ms=400 * can.turns, shows={
+    yield Step("its first fault", {"Fate.Trips": second}, ms=600 * can.turns, shows={
         "Motor.Diagnosis.FirstFaultCode": second if can.code else 0, "Fault": True,
     })  # fmt: skip
 
