@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 from driveblocks.maps.model import Drive
 from driveblocks.maps.plan import holding, plan
+from driveblocks.maps.rivals import first_reads
 from driveblocks.render import context, parameter, text
 from driveblocks.render.drive import drive_block
 from driveblocks.render.environment import render
@@ -155,7 +156,7 @@ def _blocks(drive: Drive) -> Iterator[tuple[str, Mapping[str, object]]]:
     yield from (("Decoder", vars(one)) for one in context.decoders(drive))
     yield from (("Scale", vars(one)) for one in context.scales(drive))
     block = {**drive_block(drive).values, "parameter": parameter.passing(drive, allowed)}
-    for part in (*(["Identity"] if drive.identity else []), "Reads", "Orders", "ParameterGate", "Drive"):
+    for part in (*(["Identity"] if first_reads(drive) else []), "Reads", "Orders", "ParameterGate", "Drive"):
         yield part, block
     yield "Version", vars(context.version(drive))
 

@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 
 from driveblocks.maps.model import Drive
+from driveblocks.maps.rivals import first_reads
 from driveblocks.testing.scenes.ability import Ability
 from driveblocks.testing.scenes.motor import POWER, STANDS, run
 from driveblocks.testing.scenes.reason import REASONS
@@ -148,7 +149,7 @@ def _quiet(drive: Drive) -> Iterator[Step]:
     yield Step("a slow line on which it is quiet", MS | slow, ms=60 * SCAN_MS)
     yield Step("Restart", {"Pins.Restart": True, "Pins.TxBusy": False}, ms=SCAN_MS)
     yield Step("its first request", {"Pins.Restart": False}, "TxCount > 0", 2000, {
-        ".WaitedMs": _after(4, 110 if drive.identity else 14),
+        ".WaitedMs": _after(4, 110 if first_reads(drive) else 14),
     })  # fmt: skip
 
 
