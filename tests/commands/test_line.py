@@ -11,6 +11,7 @@ from rich.cells import cell_len
 from driveblocks.cli import app
 from driveblocks.desk.site import kept
 from driveblocks.desk.site.found import Found, Way
+from driveblocks.maps import rivals
 
 EXAMPLE = str(Path(__file__).parents[2] / "examples" / "three_makes.st")
 
@@ -48,7 +49,7 @@ def test_the_shipped_example_has_the_figures_of_its_own_line(tmp_path: Path) -> 
     ]  # fmt: skip
     assert (told["bits"], told["max_scan"], told["smallest_rate"]) == (11, 20, 4800)
     # what the same program shows in its first scan, with 500 ms of turn-round for each drive
-    assert (own["all_stops_before_replies"], own["broken"]) == (1759, [])
+    assert (own["all_stops_before_replies"], own["broken"]) == (1754, [])
     drawn = ElementTree.fromstring(picture.read_text(encoding="utf-8"))  # noqa: S314  (what the command has written)
     texts = [each.text for each in drawn.iter("{http://www.w3.org/2000/svg}text")]
     assert {"Pump1 (1)", "Pump2 (2)", "Fan (3)", "0 ms", f"{own['round']} ms"} <= {*texts}
@@ -57,6 +58,25 @@ def test_the_shipped_example_has_the_figures_of_its_own_line(tmp_path: Path) -> 
     assert len(bars) == 2 + 3 * 2
     assert ends[0] < ends[1] <= 970
     assert line(EXAMPLE, "--picture", str(picture)).exit_code == 0
+
+
+def test_families_whose_stop_would_move_the_other_are_named() -> None:
+    got = line("pf525@1", "gd200a@2", "mx2@3", columns=100)
+    said = " ".join(got.stdout.split())
+    assert "A stop of PF525 at a GD200A may start the motor; its block sees that by 007CH, its own unit" in said
+    assert "A stop of GD200A at a PF525 may start the motor; its block sees that by 0E00H, its own unit" in said
+    assert said.count("A stop of") == 2
+    assert got.exit_code == 0
+    told = json.loads(line("jscc", "chf", "--json").stdout)["mistaken"]
+    assert [(each["block"], each["drive"], each["means"]) for each in told] == [("JSCC", "CHF", "motion")]
+
+
+def test_families_that_nothing_tells_apart_do_not_hold(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(rivals, "told_apart", lambda _, __: "")
+    got = line("jscc@1", "chf@2", columns=100)
+    assert got.exit_code == 1
+    assert "nothing tells the two apart: check the addresses" in " ".join(got.stdout.split())
+    assert line("chf@1", "mx2@2").exit_code == 0
 
 
 @pytest.mark.parametrize(

@@ -266,3 +266,25 @@ def test_no_parameter_passes_the_rules_by(address: int) -> None:
     bench = parameter(Bench("CHF").stopped(), address, AllowUnknown=True)
     assert bench.block["Writer.Error"]
     assert not [each for each in bench.run(500) if not each.read]
+
+
+@pytest.mark.parametrize("ms", [500, 30_000])
+def test_an_address_that_nobody_has_is_corrected_at_standstill_without_an_alarm(ms: int) -> None:
+    """The motor was proved to stand, and nothing was posted to anybody since."""
+    bench = Bench("CHF").stopped()
+    overdue: list[bool] = []
+    bench.watch.append(lambda one: overdue.append(one.shows("StopOverdue")))
+    bench.put(Address=9).run(ms)
+    assert bench.reason() == "NO_REPLY"
+    bench.restart().put(Address=1).run(200)
+    bench.stopped().running()
+    assert not any(overdue)
+
+
+def test_a_motor_that_runs_at_another_address_is_stopped_and_watched_like_any() -> None:
+    bench = Bench("CHF").stopped()
+    bench.drives[0].unit = 9
+    bench.drives[0].keypad_run(20.0)
+    bench.put(Address=9).run(300)
+    bench.deaf = {9}
+    bench.until(lambda: bench.shows("StopOverdue"), 9000)

@@ -119,3 +119,44 @@ def test_silence_neither_ends_a_fault_nor_gives_it_a_code() -> None:
         bench.run(12_000)
     shown = [bench.out(name) for name in ("FaultCode", "FirstFaultCode", "FaultBack1", "FaultBack2")]
     assert shown == [5, 5, 5, 0]
+
+
+def test_a_press_without_a_fault_says_so_while_it_lasts() -> None:
+    """It bars nothing."""
+    bench = Bench("CHF").stopped().put(FaultReset=True)
+    bench.run(500)
+    assert (bench.reason(), bench.shows("Ready")) == ("NO_FAULT", True)
+    bench.put(FaultReset=False).run(60)
+    assert bench.reason() == "READY"
+    bench.put(FaultReset=True).running()
+
+
+def test_a_reset_that_a_run_pin_forbids_is_refused() -> None:
+    bench = tripped().put(RunForward=True)
+    bench.run(60)
+    bench.put(FaultReset=True).run(500)
+    assert bench.reason() == "NO_RESET"
+
+
+def test_a_fault_that_a_reset_does_not_end_is_there_again() -> None:
+    bench = tripped()
+    bench.spoil = lambda _, reply: reply
+    bench.drives[0].cause = True
+    bench.put(FaultReset=True).run(12_000)
+    assert bench.reason() in {"FAULT_BACK", "NO_RESET"}
+    assert bench.shows("Fault")
+
+
+def test_a_fault_that_comes_back_after_its_reset_is_there_again() -> None:
+    bench = tripped().put(FaultReset=True)
+    bench.until(lambda: not bench.shows("Fault"))
+    bench.put(FaultReset=False).run(1000)
+    bench.drives[0].trip(3)
+    bench.run(1000)
+    assert bench.reason() == "FAULT_BACK"
+    bench.drives[0].clear_cause()
+    bench.run(5000)
+    bench.put(FaultReset=True).run(3000)
+    assert not bench.shows("Fault")
+    bench.put(FaultReset=False).stopped()
+    assert bench.reason() == "READY"

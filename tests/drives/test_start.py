@@ -23,7 +23,8 @@ def test_from_power_up_to_a_turning_motor_and_back(kind: str) -> None:
     bench.put(RunForward=False).stopped()
     assert bench.drives[0].mode == "standstill"
     assert bench.block["TheLine.Timeouts"] == 0
-    assert bench.block["TheLine.Refusals"] == 0
+    # LOW is told from CHF by a register that it refuses, twice
+    assert bench.block["TheLine.Refusals"] == (2 if kind == "LOW" else 0)
 
 
 def test_run_and_jog_go_through_stop_and_a_new_edge() -> None:
@@ -227,3 +228,29 @@ def test_a_pulse_is_as_long_as_the_map_says() -> None:
     assert [each.word for each in frames[:2]] == [1, 0]
     assert frames[1].ms - frames[0].ms >= 100
     bench.until(lambda: bench.drives[0].hertz > 24.0)
+
+
+def test_ready_is_shown_only_where_a_rising_pin_starts_the_motor() -> None:
+    """Whatever comes: a pin that rises in the call after a Ready starts, and beside it stands no reason of before."""
+    bench = Bench("CHF").running()
+    bench.drives[0].keypad_stop()
+    bench.until(lambda: bench.reason() == "BY_ITSELF", 9000)
+    bench.run(4000)
+    assert bench.shows("StopConfirmed")
+    assert (bench.reason(), bench.shows("Ready")) == ("BY_ITSELF", False)
+    bench.put(RunForward=False).scan()
+    assert (bench.reason(), bench.shows("Ready")) == ("READY", True)
+    bench.put(RunForward=True).scan()
+    assert bench.reason() == "STARTING"
+    assert not bench.shows("Ready")
+
+
+def test_a_held_pin_takes_ready_away() -> None:
+    bench = Bench("CHF").put(RunForward=True)
+    bench.run(3000)
+    assert bench.shows("StopConfirmed")
+    assert not bench.shows("Ready")
+    bench.put(RunForward=False).scan()
+    assert bench.shows("Ready")
+    bench.put(JogForward=True).scan()
+    assert bench.reason() == "STARTING"

@@ -187,7 +187,6 @@ DIFFER = [
     ("jscc", "", w("jscc", "1001", 5001), "0186 03", "above the drive's own maximum"),
     ("gd", "", "010300000000", "0183 03", "a number of words that no frame may have: page 143"),
     ("gd", "", "010300000011", "0183 03", "the same, above 16: page 132"),
-    ("pf", "", r("0068"), "010302 0001", "A104 is the unit address, which the map's drive has elsewhere"),
     ("atv", "", r("0C81"), "010302 0660", "bits that no condition of the map names: page 13"),
     ("mx", "", "010100000021", "0181 03", "01H reads 32 coils at most: I585 page 6-5"),
     ("mx", "", "0105000eff00", "0185 23", "a coil that is read-only; the map has no reason for that code: page 6-18"),

@@ -321,8 +321,10 @@ def test_the_templates_get_what_the_drive_says_of_itself_or_nothing() -> None:
     assert bus
     assert maximum
     assert maximum.scale
-    assert (identity.function, identity.address, identity.words) == (3, 0x2003, 1)
-    assert identity.tests == [Masked(0, 0xFFFF, 0x0312)]
+    (plate,) = identity.reads
+    assert (plate.function, plate.address, plate.words) == (3, 0x2003, 1)
+    assert plate.tests == [Masked(0, 0xFFFF, 0x0312)]
+    assert identity.plate
     assert (bus.holds, bus.reads) == (["DriveStatusBits.Remote"], [1])
     assert (maximum.word.address, maximum.scale.factor) == (0x2004, Decimal("0.1"))
     assert block.reading.verify_reads == [1]
@@ -330,8 +332,14 @@ def test_the_templates_get_what_the_drive_says_of_itself_or_nothing() -> None:
         "cia402": "any", "profidrive": "reference", "pulse": "read", "two_registers": "run", "active_low": None,
         "packed": None,
     }  # fmt: skip
+    bare = drive_block(shapes()["profidrive"])
+    assert bare.reading.identity is None
     bare = drive_block(shapes()["active_low"])
-    assert (bare.reading.identity, bare.showing.commanded_by, bare.showing.own_maximum) == (None, None, None)
+    assert (bare.showing.commanded_by, bare.showing.own_maximum) == (None, None)
+    apart = bare.reading.identity  # from CHF, whose jog stop is its run, and from JSCC
+    assert apart
+    assert not apart.plate
+    assert [(read.address, read.shows) for read in apart.reads] == [(0x2001, "any"), (0x3000, "refusal")]
 
 
 def test_an_identity_of_several_bits_is_one_read() -> None:
@@ -343,8 +351,9 @@ def test_an_identity_of_several_bits_is_one_read() -> None:
     assert drive.identity is not None
     identity = drive_block(replace(drive, identity=replace(drive.identity, all=asked))).reading.identity
     assert identity
-    assert (identity.address, identity.words) == (0x2003, 2)
-    assert identity.tests == [Masked(1, 0x00F0, 0x0090), Masked(0, 0xFF00, 0x0300)]
+    (plate,) = identity.reads
+    assert (plate.address, plate.words) == (0x2003, 2)
+    assert plate.tests == [Masked(1, 0x00F0, 0x0090), Masked(0, 0xFF00, 0x0300)]
 
 
 def test_explain_knows_a_write_on_the_way_and_a_mask(tmp_path: Path) -> None:

@@ -44,8 +44,9 @@ def run(picture: Path | None, json: bool, **words: Any) -> None:
     """Compute how often drives are read and how late stops can be.
 
     It does so before anything is bought. The figures of stops are those of the line block itself, run for one scan at
-    each bit rate; nothing is sent. The exit status is 0; 1 if --stop-within or a watchdog does not hold at the line's
-    own rate; 2 for bad input.
+    each bit rate; nothing is sent. It names the families whose stop would move a drive of another one of the line. The
+    exit status is 0; 1 if --stop-within or a watchdog does not hold at the line's own rate, or if no block could see
+    such a mix-up; 2 for bad input.
 
     Example: driveblocks line chf@1 chf@2 jscc@3 --rate 19200 --stop-within 500ms --picture round.svg
     """
@@ -66,4 +67,5 @@ def run(picture: Path | None, json: bool, **words: Any) -> None:
         click.echo(dumps(report.plain(tried), ensure_ascii=False, indent=2))
     else:
         console.write(*report.tables(tried))
-    sys.exit(1 if own.broken else 0)
+    untold = [each for each in report.mistaken(line) if not each.told]
+    sys.exit(1 if own.broken or untold else 0)

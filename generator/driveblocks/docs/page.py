@@ -9,7 +9,7 @@ from typing import Any
 from driveblocks.docs import bus, chain, ladder, network, states, sto, timing
 from driveblocks.docs.members import members
 from driveblocks.docs.pins import Pin, pins
-from driveblocks.maps import conduct, inventory, plan, trust
+from driveblocks.maps import conduct, inventory, plan, rivals, trust
 from driveblocks.maps.form import address_text
 from driveblocks.maps.model import Absence, Drive, Erratum, Notice, Setting
 from driveblocks.maps.polls import Poll, polls, schedule, wire_ms
@@ -122,7 +122,12 @@ def _shared(drives: list[Drive], blocks: Mapping[str, FunctionBlock]) -> dict[st
         f"{FOLDER}/FirstMotor.md": render("docs/FirstMotor.md.j2"),
         f"{FOLDER}/bus.svg": bus.picture(),
         f"{FOLDER}/sto.svg": sto.picture(),
-        f"{FOLDER}/Swapping.md": render("docs/Swapping.md.j2", drives=[_swapped(drive) for drive in drives]),
+        f"{FOLDER}/Swapping.md": render(
+            "docs/Swapping.md.j2",
+            drives=[_swapped(drive) for drive in drives],
+            mistaken=list(_mistaken(drives)),
+            unknown=_unknown(drives),
+        ),
     }
 
 
@@ -199,6 +204,32 @@ def _swapped(drive: Drive) -> dict[str, str]:
         "cannot": ", ".join(words for does, words in ABILITIES.items() if not can(drive, does)) or "nothing",
         "units": f"{unit.min} to {unit.max}",
     }
+
+
+def _mistaken(drives: list[Drive]) -> Iterator[dict[str, str]]:
+    """The families whose stop does harm at a drive of another, those together of which the same is so."""
+    found: dict[tuple[str, str, str], dict[str, None]] = {}
+    for pair in rivals.pairs(drives):
+        stop = f"{address_text(pair.worst.register)} = {pair.worst.word:04X}H, there {pair.worst.says}"
+        told = f"by {pair.told}" if pair.told else "**nothing**"
+        what = "**motion**" if pair.worst.means == "motion" else "another register"
+        found.setdefault((pair.drive.prefix, f"{what}: {stop}", told), {})[pair.block.prefix] = None
+    rows: dict[tuple[str, str, str], list[str]] = {}
+    for (drive, stop, told), blocks in found.items():
+        rows.setdefault((", ".join(blocks), stop, told), []).append(drive)
+    for (names, stop, told), others in rows.items():
+        yield {"blocks": names, "drives": ", ".join(others), "stop": stop, "told": told}
+
+
+def _unknown(drives: list[Drive]) -> str:
+    """The families of whose stop the map of another says nothing."""
+    found: dict[str, list[str]] = {}
+    for one, other in rivals.unknown(drives):
+        found.setdefault(one.prefix, []).append(other.prefix)
+    rows: dict[str, list[str]] = {}
+    for block, others in found.items():
+        rows.setdefault(", ".join(others), []).append(block)
+    return "; ".join(f"{', '.join(blocks)} at {others}" for others, blocks in rows.items())
 
 
 def _network(platform: str, drive: Drive, blocks: Mapping[str, FunctionBlock]) -> str:

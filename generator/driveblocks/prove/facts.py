@@ -12,10 +12,11 @@ from driveblocks.maps.pair import places, whole
 from driveblocks.maps.plan import writes_by
 from driveblocks.maps.polls import Poll, fast_words, polls, schedule, slow_words
 from driveblocks.maps.revision import checked
+from driveblocks.maps.rivals import first_reads, refusals
 from driveblocks.maps.trust import second_hand
 from driveblocks.maps.view import error_number
 from driveblocks.modbus.layout import COIL_ON
-from driveblocks.render.context import reply, word_input
+from driveblocks.render.context import word_input
 from driveblocks.render.decoded import Decoded
 from driveblocks.render.drive import MEASURES
 from structured_text.language.writing import word
@@ -70,7 +71,7 @@ def facts(drive: Drive) -> dict[str, str]:
         computed = pin.endswith("speed") and "output_frequency" in measured
         found[f"shows_{pin}"] = str(pin in shown or computed).upper()
     for name, member in (("may_stop", "MayStop"), ("known", "Known"), ("wrong", "Wrong")):
-        found[name] = f"Identity.{member}" if drive.identity else str(name != "wrong").upper()
+        found[name] = f"Identity.{member}" if first_reads(drive) else str(name != "wrong").upper()
     running = next(one for one in drive.operation.status if one.shows == "running")
     found["running"] = _any(_holds(drive, each) for each in running.any)
     by_bus = drive.operation.commanded_by.all if drive.operation.commanded_by else ()
@@ -236,7 +237,7 @@ def _settings(drive: Drive) -> str:
 def _shown(drive: Drive) -> dict[str, str]:
     """That the pins show what the map says of the words that were read, and what is handed to the line."""
     said, pins = [], []
-    dialect, silence = reply(drive).form, drive.serial.silence
+    dialect, silence = refusals(drive), drive.serial.silence
     busy = next((error_number(one) or 0 for one in drive.errors.codes if one.busy), 0)
     for one in drive.operation.status:
         holds = _any(_holds(drive, each) for each in one.any)
@@ -248,8 +249,8 @@ def _shown(drive: Drive) -> dict[str, str]:
         f"Slot.TwoByteCount = {tolerant}".upper(),
         f"Slot.SilenceMs = {int(silence.milliseconds or 0) if silence else 0}",
         f"Slot.ExceptionAdd = {dialect.add}",
-        f"Slot.ErrorFunction = {dialect.function}",
-        f"Slot.ErrorAddress = {word(dialect.address)}",
+        f"Slot.ErrorFunction = {dialect.function or 0}",
+        f"Slot.ErrorAddress = {word(dialect.address or 0)}",
         f"Slot.BusyReason = {busy}",
     ]
     ready = [_holds(drive, each) for one in drive.operation.status if one.shows == "ready" for each in one.any]

@@ -27,8 +27,12 @@ def of(entry: Returned | Bit) -> Texts:
     return Texts(name, zh) if entry.short is None else Texts(entry.short.en or name, entry.short.zh or zh)
 
 
+UNREAD = Texts("code not read yet", "代码尚未读取")
+
+
 def fault(drive: Drive, code: int) -> Texts | None:
-    return _displayed(drive.faults.codes, code)
+    """The text of a fault code; 0 is none of most drives, and what a block shows until it has read one."""
+    return _displayed(drive.faults.codes, code) or (None if code else UNREAD)
 
 
 def warning(drive: Drive, code: int) -> Texts | None:

@@ -54,8 +54,8 @@ NUMBERS = {
     "RANK_PROBE": (8, "a probe of a dead drive"),
     "RANK_PARAMETER": (9, "a parameter"),
     "RANK_REFRESH": (10, "a reference that has not changed"),
-    "RANK_NONE": (11, "nothing"),
-    "RANK_READ": (12, "a guaranteed read"),
+    "RANK_NONE": (12, "nothing"),
+    "RANK_READ": (11, "a guaranteed read"),
     # why a slot gets nothing, or only stops
     "BARRED_NOT": (0, "it is served"),
     "BARRED_LATE": (1, "a late reply may come"),

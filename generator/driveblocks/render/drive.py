@@ -3,16 +3,18 @@
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from decimal import Decimal
+from functools import reduce
+from itertools import pairwise
+from operator import or_
 
 from driveblocks.maps import model, names
-from driveblocks.maps.form import is_bit
+from driveblocks.maps.form import address_text, is_bit
 from driveblocks.maps.model import Command, Condition, Drive, Scale, State, Status, UnitAddress, kept
 from driveblocks.maps.pair import places
 from driveblocks.maps.plan import writes_by
 from driveblocks.maps.polls import (
     Poll,
     fast_words,
-    identity_read,
     meaning_words,
     other_words,
     polls,
@@ -22,15 +24,19 @@ from driveblocks.maps.polls import (
     young_words,
 )
 from driveblocks.maps.revision import checked
+from driveblocks.maps.rivals import First, first_reads, refusals
 from driveblocks.maps.trust import second_hand
 from driveblocks.maps.view import error_number
-from driveblocks.modbus.layout import COIL_ON
+from driveblocks.modbus.checksum import crc16
+from driveblocks.modbus.layout import COIL_ON, Dialect
 from driveblocks.render import context
 from driveblocks.render.constants import ORDERS, STOPS
 from driveblocks.render.context import Word, word_input
 from driveblocks.render.decoded import Call, Decoded
 from driveblocks.render.expression import Test
 
+BUSY = 6
+"""The refusal of a busy drive in the standard, for maps without codes (MODBUS Application Protocol V1.1b3, 7)."""
 CONSTANTS = {
     "stop": "RAMP_STOP", "quick_stop": "QUICK_STOP", "coast_stop": "COAST_STOP", "jog_stop": "JOG_STOP",
     "run_forward": "GO_FORWARD", "run_reverse": "GO_REVERSE", "jog_forward": "JOG_AHEAD", "jog_reverse": "JOG_BACK",
@@ -120,13 +126,28 @@ class Masked:
 
 
 @dataclass(frozen=True)
-class Identified:
-    """The one read that shows the family."""
+class Shown:
+    """A read that shows the family: see `rivals.First`; `plate` is an identity of the map, by its tests."""
 
     function: int
     address: int
     words: int
+    shows: str
+    values: tuple[int, ...]
+    mask: int
     tests: list[Masked]
+
+
+@dataclass(frozen=True)
+class Identified:
+    """The reads that show the family."""
+
+    plate: bool
+    """The map has an identity; else other makes are told apart."""
+    reads: list[Shown]
+    where: str
+    busy: int
+    """The refusal that says nothing of it; 0: none."""
     source: str
 
 
@@ -219,6 +240,10 @@ class Reading:
     measure_reads: list[int]
     young_reads: list[int]
     """Those of what is shown while they are young: measures, and the code of a warning."""
+    running_reads: list[int]
+    """Those that show whether it runs."""
+    status_polls: int
+    """In how many polls of the turns all fast ones are read again, at the most."""
     several: bool
     """Not all are read by one function."""
     identity: Identified | None
@@ -283,8 +308,9 @@ class Own:
 
     source: str
     prefix: str
+    family_number: int
     unit: UnitAddress
-    dialect: context.Refusal
+    dialect: Dialect
     two_byte_count: bool
     busy: int
     silence: int
@@ -337,9 +363,22 @@ def _reading(drive: Drive) -> Reading:
         verify_reads=sorted({number[each] for each in meaning_words(drive)}),
         measure_reads=sorted({number[one.register] for one in operation.measures}),
         young_reads=sorted({number[each] for each in young_words(drive)}),
+        running_reads=sorted({number[each.register] for each in _running(drive)}),
+        status_polls=max(_gap(turns, index) for index in set(turns) if reads[index - 1].fast),
         several=len({read.function for read in reads}) > 1,
         identity=_identity(drive),
     )
+
+
+def _running(drive: Drive) -> Iterator[Condition]:
+    """What shows whether the motor runs."""
+    return (each for one in drive.operation.status if one.shows == "running" for each in one.any)
+
+
+def _gap(turns: list[int], number: int) -> int:
+    """The most turns from one of a read to the next one."""
+    places = [place for place, each in enumerate(turns) if each == number]
+    return max(after - before for before, after in pairwise([*places, places[0] + len(turns)]))
 
 
 def _showing(drive: Drive, number: dict[int, int], told: Decoded) -> Showing:
@@ -397,21 +436,31 @@ def _ordering(drive: Drive) -> Ordering:
     )
 
 
+def family_number(prefix: str) -> int:
+    """What the slot of a drive is marked with, 1 to 65535: the same in every version, another one for each family."""
+    return crc16(prefix.encode()) or 1
+
+
 def _own(drive: Drive) -> Own:
     reply = context.reply(drive)
     stop = next(one for one in drive.operation.commands if one.does == "stop")
     return Own(
         source=context.source_of(drive, stop.source),
         prefix=drive.prefix,
+        family_number=family_number(drive.prefix),
         unit=drive.serial.unit,
-        dialect=reply.form,
+        dialect=refusals(drive),
         two_byte_count=reply.two_byte_count,
-        busy=next((error_number(one) or 0 for one in drive.errors.codes if one.busy), 0),
+        busy=_busy(drive),
         silence=_silence(drive),
         second_hand=second_hand(drive),
         checked=checked(drive),
         feeds=drive.watchdog.feeds if drive.watchdog else None,
     )
+
+
+def _busy(drive: Drive) -> int:
+    return next((error_number(one) or 0 for one in drive.errors.codes if one.busy), 0)
 
 
 def _writes(drive: Drive, one: Command, stop: Command) -> Iterator[Write]:
@@ -486,14 +535,27 @@ def _read(drive: Drive, number: int, places: list[Word], reads: tuple[Poll, ...]
 
 
 def _identity(drive: Drive) -> Identified | None:
-    read = identity_read(drive)
-    if read is None or drive.identity is None:
+    firsts = first_reads(drive)
+    if not firsts:
         return None
-    tests = [_condition(drive, each) for each in drive.identity.all]
-    words = [each.register - read.address for each in drive.identity.all]
-    masked = [Masked(index, test.mask or 0xFFFF, test.value) for index, test in zip(words, tests, strict=True)]
-    source = context.source_of(drive, drive.identity.source)
-    return Identified(read.function, read.address, read.words, masked, source)
+    tests = _plate(drive, firsts[0].read)
+    reads = [_shown(each, tests) for each in firsts]
+    sources = [context.source_of(drive, drive.identity.source)] if drive.identity else [each.source for each in firsts]
+    where = " and ".join(f"at {address_text(each.address)}" for each in reads)
+    return Identified(bool(tests), reads, where, _busy(drive) or BUSY * (not drive.errors.codes), "; ".join(sources))
+
+
+def _shown(first: First, tests: list[Masked]) -> Shown:
+    mask = reduce(or_, first.values, 0)
+    read, shows = first.read, "plate" if tests else first.shows
+    return Shown(read.function, read.address, read.words, shows, first.values, mask, tests)
+
+
+def _plate(drive: Drive, read: Poll) -> list[Masked]:
+    """The tests of the map's identity, where it has one."""
+    conditions = drive.identity.all if drive.identity else ()
+    tests = [(each.register - read.address, _condition(drive, each)) for each in conditions]
+    return [Masked(index, test.mask or 0xFFFF, test.value) for index, test in tests]
 
 
 def _commanded_by(drive: Drive, number: dict[int, int], told: Decoded) -> InCommand | None:

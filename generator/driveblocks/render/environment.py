@@ -65,6 +65,7 @@ def environment() -> jinja2.Environment:
         since=since,
         age=age,
         oldest=oldest,
+        entries=entries,
         taken=taken,
         turns=turns,
         either=either,
@@ -141,6 +142,11 @@ def since(read: int) -> str:
 def age(read: int) -> str:
     """The age of the words of a read."""
     return f"Age{read}"
+
+
+def entries(numbers: Sequence[int]) -> str:
+    """Whether one of these reads has come in this call, and without a doubt."""
+    return either([f"(Reads.BelievedEntry = {number})" for number in numbers]).strip()
 
 
 def oldest(ages: Iterable[str]) -> str:

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 from driveblocks.maps.model import Drive
 from driveblocks.maps.plan import holding, plan
+from driveblocks.maps.rivals import first_reads
 from driveblocks.render import context, parameter, text
 from driveblocks.render.drive import drive_block
 from driveblocks.render.environment import render
@@ -31,9 +32,9 @@ LINE_BLOCKS = (
     "MB_Promise", "MB_Foreign", "MB_Silence", "MB_Stop", "MB_OneSlot", "MB_Sending", "MB_Next",
 )  # fmt: skip
 CONTROL_BLOCKS = (
-    "VFD_HardStop", "VFD_Next", "VFD_Link", "VFD_Unit", "VFD_LineFacts", "VFD_Set", "VFD_Usual", "VFD_IsScale",
-    "VFD_Scaled", "VFD_ScaledSigned", "VFD_Diagnose", "VFD_Identity", "VFD_Pins", "VFD_Run", "VFD_FaultReset",
-    "VFD_Start", "VFD_FirstStop", "VFD_StopRound", "VFD_Steady", "VFD_Send", "VFD_Why", "VFD_Control",
+    "VFD_HardStop", "VFD_Next", "VFD_Link", "VFD_Unit", "VFD_Set", "VFD_Usual", "VFD_Pace", "VFD_Evidence",
+    "VFD_IsScale", "VFD_Scaled", "VFD_ScaledSigned", "VFD_Diagnose", "VFD_Identity", "VFD_Pins", "VFD_Run",
+    "VFD_FaultReset", "VFD_Start", "VFD_FirstStop", "VFD_StopRound", "VFD_Steady", "VFD_Send", "VFD_Why", "VFD_Control",
 )  # fmt: skip
 PARAMETER_BLOCKS = ("VFD_ReadParameter", "VFD_WriteParameter", "VFD_Store")
 DEVICE = ("MB_Device", "MB_Float")
@@ -155,7 +156,7 @@ def _blocks(drive: Drive) -> Iterator[tuple[str, Mapping[str, object]]]:
     yield from (("Decoder", vars(one)) for one in context.decoders(drive))
     yield from (("Scale", vars(one)) for one in context.scales(drive))
     block = {**drive_block(drive).values, "parameter": parameter.passing(drive, allowed)}
-    for part in (*(["Identity"] if drive.identity else []), "Reads", "Orders", "ParameterGate", "Drive"):
+    for part in (*(["Identity"] if first_reads(drive) else []), "Reads", "Orders", "ParameterGate", "Drive"):
         yield part, block
     yield "Version", vars(context.version(drive))
 

@@ -56,8 +56,8 @@ REASONS = (
     Reason(
         18,
         "LATE_SCAN",
-        "the scan takes longer than promised",
-        "扫描周期过长",
+        "a scan of the last 10 s took longer than MaxScanMs",
+        "最近10秒内扫描周期超过MaxScanMs",
         "it bars no start, but the figures of the stop do not hold: raise `MaxScanMs` of the line, or shorten the task",
     ),
     Reason(
@@ -189,8 +189,8 @@ REASONS = (
     Reason(
         48,
         "NO_RESET",
-        "the reset was refused or has not helped",
-        "复位被拒绝或无效",
+        "the reset was refused",
+        "复位被拒绝",
         "release the run pins, remove the cause, then a rising `FaultReset`; "
         "none is sent with `SpeedOnly` or `MonitorOnly`",
         "`FaultReset` was pressed: this drive takes none over the bus",
@@ -223,6 +223,65 @@ REASONS = (
         "应答过迟：增大PortLateMs或检查网关",
         "`Diagnosis.LongestReplyMs` is how long they took; `PortLateMs` has to cover what port, adapter and gateway "
         "add in both directions together, `Settings.TurnRoundMs`, where it is set, the drive's own time",
+    ),
+    Reason(
+        53,
+        "OTHER_VERSION",
+        "line and drive block are of different versions",
+        "总线功能块与驱动功能块版本不同",
+        "load all blocks of one version, and restart",
+    ),
+    Reason(
+        54,
+        "LEARNING",
+        "the line is still learning how fast the drives answer",
+        "正在测定变频器应答时间",
+        "wait for 20 replies, or set `Settings.TurnRoundMs`",
+    ),
+    Reason(
+        55,
+        "TOO_SLOW",
+        "the line is too slow: ReadMs is above StaleMs",
+        "总线过慢：ReadMs大于StaleMs",
+        "compare `Diagnosis.ReadMs` with `Diagnosis.StaleMs`: fewer drives, a higher bit rate, a shorter "
+        "`Settings.TurnRoundMs`, or a longer `Settings.StaleMs`",
+    ),
+    Reason(
+        56,
+        "MAY_BE_LATE",
+        "ready; if other drives fail, the status may become too old",
+        "就绪；其他变频器故障时状态可能过期",
+        "it bars no start; compare `Diagnosis.WorstReadMs` with `Diagnosis.StaleMs`: fewer drives, a higher bit rate, "
+        "`SupplyOff` where supplies fail together, or a longer `Settings.StaleMs`",
+    ),
+    Reason(
+        57,
+        "MAY_STARVE",
+        "ready; if other drives fail, the watchdog of the drive may trip",
+        "就绪；其他变频器故障时通讯超时保护可能动作",
+        "it bars no start; compare `WorstFeedMs` of the slot with `Settings.WatchdogMs`: fewer drives, a higher bit "
+        "rate, or a longer watchdog",
+    ),
+    Reason(
+        58,
+        "UNPROVED",
+        "standstill is not proved: another master reads this drive",
+        "停机未证实：另有主站读取此变频器",
+        "switch it off, or let it ask less often: between two of its requests there has to be time for one of ours",
+    ),
+    Reason(
+        59,
+        "NO_FAULT",
+        "there is no fault to reset",
+        "无故障可复位",
+        "nothing; it is shown while `FaultReset` is TRUE",
+    ),
+    Reason(
+        60,
+        "FAULT_BACK",
+        "the fault is there again after the reset",
+        "复位后故障再次出现",
+        "remove the cause, then a rising `FaultReset`",
     ),
 )
 _BY_NAME = {reason.name: reason for reason in REASONS}

@@ -20,6 +20,8 @@ class Language:
     suffix: str
     encoding: str
     unknown: str
+    unread: str
+    """The text of fault code 0, where that is no code of the drive."""
 
     def literal(self, text: str) -> str:
         """The text as a STRING literal, whole: a checked map has none that is too long."""
@@ -31,12 +33,12 @@ class Language:
         return en if self.suffix == "En" else (entry.short and entry.short.zh) or entry.text_zh or en
 
 
-ENGLISH = Language("En", "utf-8", "unknown code")
+ENGLISH = Language("En", "utf-8", "unknown code", "code not read yet")
 
 
 def chinese(encoding: str = "utf-8") -> Language:
     """Chinese in UTF-8 or GB18030."""
-    return Language("Zh", encoding, "未知代码")
+    return Language("Zh", encoding, "未知代码", "代码尚未读取")
 
 
 def exists(drive: Drive, kind: str, language: Language) -> bool:
@@ -160,6 +162,8 @@ def warning_texts(drive: Drive, language: Language) -> CodeText | None:
 
 def _displayed(drive: Drive, language: Language, kind: str, told: Faults | Warnings) -> CodeText:
     rows = [_row(language, one.code, led(one, language.pick(one)), one.text_zh) for one in told.codes]
+    if kind == "fault" and all(one.code for one in told.codes):
+        rows.insert(0, _row(language, 0, language.unread, None))
     head = _Head(title=f"{kind} codes", source=source_of(drive, told.source), code_comment=f"{kind} code")
     name = f"{drive.prefix}_{kind.capitalize()}Text{language.suffix}"
     return CodeText(name=name, rows=rows, **head, **_language(language))

@@ -115,6 +115,8 @@ class Machine:
         if bits and bits[0] <= home <= bits[1]:
             place = self._code - 1 - 16 * (home - bits[0])
             return self.memory[home] | (1 << place if 0 <= place < 16 else 0)
+        if home == self.table.own_address and home not in self.memory.words:
+            return self.unit
         held = 0 if home in self.table.shared else self.memory[home]
         return held & ~self.table.named.get(home, 0) | self._face().get(home, 0)
 

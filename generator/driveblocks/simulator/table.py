@@ -10,6 +10,7 @@ from driveblocks.maps.form import Span
 from driveblocks.maps.model import Drive, Reference
 from driveblocks.maps.pair import places, whole
 from driveblocks.maps.plan import Words, dialect, most, plan
+from driveblocks.maps.rivals import own_address
 from driveblocks.modbus.layout import Dialect
 from driveblocks.simulator.copies import Copy, copies, zeros
 from driveblocks.simulator.face import Situation, face, named_bits, situations
@@ -114,6 +115,8 @@ class Table:
     shared: frozenset[int]
     """Registers that show something else than what was written there."""
     copies: dict[int, Copy]
+    own_address: int | None
+    """The register that shows its unit address until somebody writes it."""
     zeros: str
     """Registers that read 0 until somebody writes them, in words."""
 
@@ -129,6 +132,7 @@ def table(drive: Drive, habits: Habits, *, ascii_mode: bool = False) -> Table:
     named = named_bits(drive, measured)
     codes_at = {drive.faults.present, *drive.warned, *(range(bits.first, bits.last + 1) if bits else ())} - {None}
     known = {*measured, *named, *codes_at, *plate(drive, habits), dialect(drive).address}
+    own = own_address(drive)
     again = copies(drive, habits, known)
     return Table(
         functions=allowed.functions,
@@ -157,7 +161,8 @@ def table(drive: Drive, habits: Habits, *, ascii_mode: bool = False) -> Table:
         fault_bits=(bits.first, bits.last) if bits else None,
         shared=drive.shared,
         copies={each.register: each for each in again},
-        zeros=zeros(drive, {*known, *(each.register for each in again)}),
+        own_address=own,
+        zeros=zeros(drive, {*known, *([] if own is None else [own]), *(each.register for each in again)}),
     )
 
 

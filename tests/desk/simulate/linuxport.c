@@ -2,9 +2,16 @@
  *
  * Commands, one per line: "now MS"; "next CALL RESULT" queues what a call gives, an error number below 0, else the most
  * that it takes or gives; "always CALL RESULT" from now on; "granted RATE"; "handle N"; "receive", "send N" call LX_Port,
- * and "scan" the program of softplc.st with its line; "again" starts the PLC anew without ending its process, "unload" is
+ * and "scan" the program of softplc.st with its line;
+ * "will PLACE COUNT MS" is what the line gives next, COUNT bytes of PLACE + 1; "process N" is who asks, as after a fork;
+ * "thread N" has N calls that receive made by a thread that ends;
+ * "torn N" forks N programs whose will changes in each call and which a signal ends, and prints what they have sent; "again" starts the PLC anew without ending its process, "unload" is
  * what dlclose calls. Each but "again" prints a line with what the block shows, what has gone out in it, and what it has called. A call that nothing was said of works, and nothing is to be read. */
 #include <errno.h>
+#include <pthread.h>
+#include <signal.h>
+#include <sys/time.h>
+#include <sys/wait.h>
 
 #include "iec_std_lib.h"
 #include "accessor.h"
@@ -19,11 +26,13 @@ enum { MOST = 256, FIRST = 3, NOTHING = -1000 };
 
 extern void *__dso_handle __attribute__((visibility("hidden")));
 void __cxa_finalize(void *);
+int fork(void);
+void _exit(int);
 
 static LX_PORT port;
 static DESK desk;
 static long told[CALLS][MOST], always[CALLS];
-static int count[CALLS], used[CALLS], opened, next_handle = FIRST;
+static int count[CALLS], used[CALLS], opened, next_handle = FIRST, process = 1, timed;
 static long long now_ms;
 static uint32_t settings[11], granted;
 static char did[4096], wire[4096];
@@ -69,7 +78,8 @@ long read(int handle, void *to, size_t most) {
 }
 
 long write(int handle, const void *from, size_t most) {
-  note(",write", 0);
+  if (timed) note(",write%ld", (long)now_ms);
+  else note(",write", 0);
   if (!works(handle)) return -1;
   long takes = answer(WRITE, (long)most);
   if (takes > (long)most) takes = (long)most;
@@ -121,6 +131,50 @@ int clock_gettime(clockid_t which, struct timespec *to) {
   return 0;
 }
 
+int poll(void *files, unsigned long number, int ms) {
+  (void)files, (void)number;
+  now_ms += ms;
+  return 0;
+}
+
+int getpid(void) { return process; }
+
+static void *calls(void *number) {
+  for (long each = 0; each < (long)number; each++) LX_PORT_body__(&port);
+  return 0;
+}
+
+static void ended(int signal) {
+  (void)signal;
+  *wire = 0;
+  __cxa_finalize(&__dso_handle);
+  puts(wire);
+  fflush(stdout);
+  _exit(0);
+}
+
+/* The signal comes at any instruction of a call: also while a will is being written. */
+static void torn(long programs) {
+  fflush(stdout);
+  for (long each = 0; each < programs; each++) {
+    if (fork()) {
+      wait(0);
+      continue;
+    }
+    const struct itimerval soon = {{0, 0}, {0, 300 + each % 97}};
+    signal(SIGALRM, ended);
+    port.TXCOUNT.value = 0;
+    port.WILLCOUNT.value = 40;
+    LX_PORT_body__(&port);
+    setitimer(ITIMER_REAL, &soon, 0);
+    for (int turn = 0;; turn++) {
+      memset(port.WILL.value.table, turn % 251 + 1, 40);
+      LX_PORT_body__(&port);
+      *did = 0;
+    }
+  }
+}
+
 static void show(int error, int heard, int elapsed) {
   printf("%d %d %d %s %s\n", error, heard, elapsed, *wire ? wire : "-", *did ? did + 1 : "-");
   *did = *wire = 0;
@@ -143,7 +197,9 @@ int main(void) {
     if (!strcmp(word, "receive")) call(0);
     else if (!strcmp(word, "again")) LX_PORT_init__(&port, 0);
     else if (!strcmp(word, "unload")) {
+      timed = 1;
       __cxa_finalize(&__dso_handle);
+      timed = 0;
       show(0, 0, 0);
     } else if (!strcmp(word, "scan")) {
       DESK_body__(&desk);
@@ -158,6 +214,24 @@ int main(void) {
     } else {
       if (scanf("%ld", &value) != 1) return 2;
       if (!strcmp(word, "now")) now_ms = value;
+      else if (!strcmp(word, "torn")) torn(value);
+      else if (!strcmp(word, "process")) process = (int)value;
+      else if (!strcmp(word, "will")) {
+        int length, wait;
+        if (scanf("%d %d", &length, &wait) != 2) return 2;
+        port.WILLSLOT.value = (USINT)value;
+        port.WILLCOUNT.value = (USINT)length;
+        port.WILLMS.value = (UINT)wait;
+        memset(port.WILL.value.table, (int)value + 1, 40);
+      } else if (!strcmp(word, "thread")) {
+        pthread_t one;
+        port.TXCOUNT.value = 0;
+        timed = 1;
+        pthread_create(&one, 0, calls, (void *)value);
+        pthread_join(one, 0);
+        timed = 0;
+        show(port.ERRORID.value, 0, 0);
+      }
       else if (!strcmp(word, "granted")) granted = (uint32_t)value;
       else if (!strcmp(word, "handle")) port.HANDLE.value = (DINT)value;
       else if (!strcmp(word, "rate")) port.BITRATE.value = (UDINT)value;

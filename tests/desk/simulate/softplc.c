@@ -1,8 +1,9 @@
 /* A soft PLC: the program every 10 ms. A line on standard input sets an input, "start 1"; every 100 ms one goes out with
  * what is to be seen, and another at once when Running, Fault, StopConfirmed or CommOk change. The end of the input ends
- * it. */
+ * it; with a second word, "thread", it runs in a thread of its own, and the process stays for ten seconds. */
 #define _GNU_SOURCE
 #include <poll.h>
+#include <pthread.h>
 #include <sys/resource.h>
 #include <time.h>
 #include <unistd.h>
@@ -55,15 +56,30 @@ static void tell(int64_t ms) {
   fflush(stdout);
 }
 
-int main(int count, char **words) {
-  if (count < 2) return 2;
-  DESK_init__(&desk, 0);
-  desk.DEVICE.value.len = strlen(words[1]);
-  memcpy(desk.DEVICE.value.body, words[1], strlen(words[1]));
+/* What the line leaves as its last will while it does not do so itself: the stop that the drive block gives it. */
+static void will(void) {
+  MB_PORT *const port = &desk.BUS.BUS.PORT.value;
+  const MB_SLOT *const slot = &desk.SLOTS.value.table[0];
+  const uint8_t bytes[6] = {slot->UNITADDRESS, 6, slot->STOPREGISTER >> 8, slot->STOPREGISTER & 255,
+                            slot->STOPWORD >> 8, slot->STOPWORD & 255};
+  unsigned check = 0xFFFF;
+  for (int at = 0; at < 6; at++) {
+    check ^= port->WILL.table[at] = bytes[at];
+    for (int bit = 0; bit < 8; bit++) check = check >> 1 ^ (check & 1 ? 0xA001 : 0);
+  }
+  port->WILL.table[6] = check & 255;
+  port->WILL.table[7] = check >> 8;
+  port->WILLSLOT = 0;
+  port->WILLCOUNT = slot->HASSTOP ? 8 : 0;
+  port->WILLMS = 60;
+}
+
+static void *scans(void *nothing) {
   const int64_t begun = now_us();
   int64_t due = begun, told = 0;
   int before = -1;
   while (take()) {
+    will();
     DESK_body__(&desk);
     const int seen = desk.MOTOR.COMMOK.value | desk.MOTOR.RUNNING.value << 1 | desk.MOTOR.FAULT.value << 2 |
                      desk.MOTOR.STOPCONFIRMED.value << 3;
@@ -76,5 +92,18 @@ int main(int count, char **words) {
     if (due < now_us()) due = now_us();
     while (now_us() < due) usleep((useconds_t)(due - now_us()));
   }
-  return 0;
+  return nothing;
+}
+
+int main(int count, char **words) {
+  if (count < 2) return 2;
+  DESK_init__(&desk, 0);
+  desk.DEVICE.value.len = strlen(words[1]);
+  memcpy(desk.DEVICE.value.body, words[1], strlen(words[1]));
+  if (count == 2) return scans(0) != 0;
+  pthread_t one;
+  pthread_create(&one, 0, scans, 0);
+  pthread_join(one, 0);
+  sleep(10);
+  _exit(0);
 }

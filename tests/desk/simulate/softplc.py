@@ -35,8 +35,8 @@ QUICK = Habits(ramp=100, coast_ramp=200)
 """A motor for which nobody has to wait."""
 
 
-def built(folder: Path, tool: Installation | None = None, driver: str = "softplc.c") -> Path:
-    """The soft PLC as a program, or what another driver in C makes of it."""
+def built(folder: Path, tool: Installation | None = None, driver: str = "softplc.c", *more: str) -> Path:
+    """The soft PLC as a program, or what another driver in C or more flags of the compiler make of it."""
     names = (BLOCKS / "order.txt").read_text(encoding="utf-8").split()
     mine = ("types/", "modbus/", "line/", "vfd/", "invt_chf/")
     files = [BLOCKS / name for name in names if name.startswith(mine)]
@@ -46,7 +46,7 @@ def built(folder: Path, tool: Installation | None = None, driver: str = "softplc
     translate(tool, texts, folder)
     program = folder / "softplc"
     headers = ["-isystem", str(tool.headers), "-I", "."]
-    flags = ["-std=gnu11", "-O1", "-fwrapv", "-fno-strict-aliasing", "-w"]
+    flags = ["-std=gnu11", "-O1", "-fwrapv", "-fno-strict-aliasing", "-w", *more]
     run([str(COMPILER), *flags, *headers, "-o", str(program), str(HERE / driver), "-lm"], folder)
     return program
 
@@ -81,9 +81,9 @@ class SoftPlc:
 
 
 @contextmanager
-def plc(program: Path, device: str) -> Iterator[SoftPlc]:
+def plc(program: Path, device: str, *more: str) -> Iterator[SoftPlc]:
     """Run the soft PLC at a device."""
-    process = subprocess.Popen([program, device], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+    process = subprocess.Popen([program, device, *more], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
     made = SoftPlc(process)
     reader = threading.Thread(target=made.read)
     reader.start()
@@ -91,7 +91,8 @@ def plc(program: Path, device: str) -> Iterator[SoftPlc]:
         yield made
     finally:
         assert process.stdin is not None
-        process.stdin.close()
+        if not process.stdin.closed:
+            process.stdin.close()
         process.wait(PATIENCE_S)
         reader.join()
 

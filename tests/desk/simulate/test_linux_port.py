@@ -7,6 +7,8 @@ import subprocess
 from collections.abc import Callable
 from dataclasses import dataclass
 from errno import EAGAIN, EBADF, EBUSY, EINTR, EIO, ENOENT, ENOTSUP, ENOTTY
+from itertools import pairwise
+from pathlib import Path
 
 import pytest
 from tests.blocks.toolchains import FOUND
@@ -39,9 +41,14 @@ def _call(line: str) -> Call:
 
 
 @pytest.fixture(scope="module", params=range(max(1, len(FOUND))))
-def port(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Told:
-    """Commands to the block by each line of matiec -> what each of its calls shows."""
-    program = built(tmp_path_factory.mktemp("linuxport"), FOUND[request.param], "linuxport.c")
+def program(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The block by each line of matiec, on that system."""
+    return built(tmp_path_factory.mktemp("linuxport"), FOUND[request.param], "linuxport.c")
+
+
+@pytest.fixture
+def port(program: Path) -> Told:
+    """Commands to the block -> what each of its calls shows."""
 
     def told(*commands: str) -> list[Call]:
         done = subprocess.run([program], input="\n".join(commands), capture_output=True, text=True, check=True)
@@ -192,3 +199,95 @@ def test_settings_that_are_refused_close_the_port(port: Told) -> None:
 def test_the_time_between_two_receiving_calls_is_measured(port: Told) -> None:
     seen = port("now 999", "receive", "now 1001", "send 8", "now 2005", "receive", "now 80000", "receive")
     assert [call.elapsed for call in seen] == [0, 0, 1006, 65535]
+
+
+def _will(place: int, count: int = 2, wait: int = 30) -> str:
+    return f"will {place} {count} {wait}\nreceive"
+
+
+def _ended(call: Call) -> tuple[list[int], bool]:
+    """When the end of a program has written, in ms, and whether it has closed the port at its end."""
+    return [int(each.removeprefix("write")) for each in call.did if each.startswith("write")], call.did[-1] == "close"
+
+
+def test_a_program_that_ends_sends_every_will_twice_with_the_time_for_a_reply_before_each(port: Told) -> None:
+    *_, end = port("rate 9600", OPENED, "now 1000", _will(0), _will(40, 3, 60), "unload")
+    times, closed = _ended(end)
+    assert end.sent == "0101" + "292929" + "0101" + "292929"
+    first, second, third, fourth = times
+    assert (first, closed) == (1060, True)  # the longest of them: what was under way may be answered until then
+    assert second >= first + 30 + 2 * 10000 // 9600
+    assert third >= second + 60 + 3 * 10000 // 9600
+    assert fourth - third == second - first
+    assert "flush1" in end.did[:1]  # nothing that waits goes before
+
+
+def test_a_will_that_was_taken_back_or_replaced_is_not_sent(port: Told) -> None:
+    *_, end = port(OPENED, _will(0), _will(1), _will(1, 3), _will(0, 0), "unload")
+    assert end.sent == "020202" * 2
+    assert _ended(end)[1]
+
+
+def test_without_a_will_nothing_is_sent(port: Told) -> None:
+    assert port(OPENED, "unload")[1].did == ["close"]
+
+
+@pytest.mark.parametrize(("wills", "most"), [(1, 2000), (8, 2000), (32, 8000), (64, 16000)])
+@pytest.mark.parametrize("stuck", [False, True])
+def test_a_program_that_ends_takes_no_longer_than_its_bound(port: Told, wills: int, most: int, stuck: bool) -> None:
+    stands = ["always queue 8"] if stuck else []
+    *_, end = port(OPENED, *(_will(place, 8, 60000) for place in range(wills)), *stands, "unload")
+    times, closed = _ended(end)
+    assert (len(times), closed) == (2 * wills, True)
+    assert times[-1] <= most
+    assert min(later - before for before, later in pairwise(times)) >= most // (2 * wills + 1) - 1
+
+
+def test_a_restart_takes_back_what_the_program_before_has_willed(port: Told) -> None:
+    *_, end = port(OPENED, _will(0), "again", _will(1), "unload")
+    assert end.sent == "0202" * 2
+
+
+def test_a_copy_of_the_process_leaves_the_drives_alone(port: Told) -> None:
+    *_, end = port(OPENED, _will(0), "process 2", "unload")
+    assert (end.sent, end.did) == ("", ["close"])
+
+
+def test_a_port_that_another_has_or_that_is_gone_gets_no_will(port: Told) -> None:
+    *_, end = port(f"next lock -{EAGAIN}", _will(0), "unload")
+    assert (end.sent, end.did) == ("", [""])
+    *_, end = port(OPENED, _will(0), f"next read -{EIO}", "receive", "unload")
+    assert end.sent == ""
+
+
+@pytest.mark.parametrize("result", [-EINTR, -EAGAIN, -EIO, 0, 1])
+def test_a_will_that_the_driver_does_not_take_at_once_ends_all_the_same(port: Told, result: int) -> None:
+    *_, end = port(OPENED, _will(0, 8), f"next write {result}", "unload")
+    assert end.sent == "01" * 16
+    *_, end = port(OPENED, _will(0, 8), f"always write {result}", "unload")
+    assert (end.sent, end.did[-1]) == ("01" * 16 if result == 1 else "", "close")
+
+
+def test_the_end_of_the_thread_that_calls_sends_the_will_and_the_next_call_opens_the_port_again(port: Told) -> None:
+    ended, after, unloaded = port(
+        "will 0 2 30", "thread 200", "now 9000", "receive", "will 0 0 0", "receive", "unload"
+    )[:3]
+    assert (ended.sent, ended.did[-1]) == ("0101" * 2, "close")
+    assert after.did[0] == "open"
+    assert unloaded.error == 0
+
+
+def test_a_thread_for_every_scan_ends_no_program(port: Told) -> None:
+    ended = port(_will(0), *["thread 1"] * 200)
+    assert {call.sent for call in ended} == {""}
+    assert all("close" not in call.did for call in ended)
+
+
+@pytest.mark.thorough
+def test_a_will_that_is_being_written_when_a_signal_ends_the_program_is_not_sent_in_parts(program: Path) -> None:
+    done = subprocess.run([program], input="torn 1000\n", capture_output=True, text=True, check=True)
+    sent = done.stdout.split()
+    assert len(sent) == 1000
+    for wire in sent:
+        assert len(wire) == 2 * 2 * 40
+        assert wire == wire[:2] * 80

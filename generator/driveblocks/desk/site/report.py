@@ -6,8 +6,9 @@ from typing import Any
 from rich.console import RenderableType
 from rich.text import Text
 
-from driveblocks.desk.site.line import Figures
+from driveblocks.desk.site.line import Figures, Line
 from driveblocks.maps.conduct import reply_delay
+from driveblocks.maps.rivals import Pair, pairs, warning
 from driveblocks.show.layout import facts, table
 
 
@@ -20,6 +21,7 @@ def tables(tried: Sequence[Figures]) -> Iterator[RenderableType]:
     yield Text()
     yield _rates(tried)
     yield Text()
+    yield from map(warning, mistaken(own.line))
     yield verdict(tried)
 
 
@@ -30,8 +32,17 @@ def plain(tried: Sequence[Figures]) -> dict[str, Any]:
         "rate": line.rate, "bits": line.bits, "ascii": line.ascii, "scan": line.scan, "max_scan": line.max_scan,
         "reply": line.reply, "port_late": line.port_late, "stop_within": line.within,
         "smallest_rate": next((each.rate for each in tried if not each.broken), None),
+        "mistaken": [
+            {"block": one.block.prefix, "drive": one.drive.prefix, "means": one.worst.means, "told": one.told or None}
+            for one in mistaken(line)
+        ],
         "rates": [_at(each) for each in tried],
     }  # fmt: skip
+
+
+def mistaken(line: Line) -> list[Pair]:
+    """The families of a line whose stop does harm at a drive of another one of it, as after a mix-up of addresses."""
+    return pairs({each.drive.prefix: each.drive for each in line.units if each.drive}.values())
 
 
 def verdict(tried: Sequence[Figures]) -> str:

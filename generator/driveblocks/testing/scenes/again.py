@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 
 from driveblocks.maps.model import Drive
+from driveblocks.maps.rivals import first_reads
 from driveblocks.testing.scenes.ability import Ability
 from driveblocks.testing.scenes.drive import mark
 from driveblocks.testing.scenes.motor import NOTHING_STARTED, POWER, RUNNING, STANDS, run
@@ -30,7 +31,7 @@ def scenes(can: Ability) -> Iterator[Scene]:
     yield scene("a restart with a fault", POWER, *_fault(can))
     yield scene("a restart while its block is not called", POWER, run(), *_not_called())
     yield scene("a restart that leaves the motor to its terminals", POWER, run(), *_terminals())
-    if not can.drive.identity:  # whose drive gets no stop before it has said what it is
+    if not first_reads(can.drive):  # whose drive gets no stop before it has said what it is
         yield scene("a Restart that stays", POWER, run(), *_stays())
 
 
@@ -74,7 +75,7 @@ def _restart(can: Ability) -> Iterator[Step]:
         "Reason": "RESTARTED", "CommOk": False, "StopConfirmed": False, "Ready": False, "Running": False,
         "Motor.Diagnosis.StopReason": 10, "Motor.Diagnosis.CommandNotFollowed": False,
     })  # fmt: skip
-    if not can.drive.identity:
+    if not first_reads(can.drive):
         yield Step("over: a stop at once", AT_REST | {"StopWithinMs": 5000}, "Seen.UntoldMs <= 40", 120)
     yield Step("nothing asked", AT_REST | {"StopWithinMs": 5000}, "Motor.Ready", 4000, STANDS | {
         "Seen.Starts": "Mark", "Reason": "READY", "Error": False, "StopOverdue": False, "Motor.Diagnosis.State": 1,

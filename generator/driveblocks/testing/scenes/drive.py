@@ -9,6 +9,7 @@ import jinja2
 
 from driveblocks.maps.form import SPACES, Span, address_name, address_text, space_of, wire
 from driveblocks.maps.model import Condition, Drive, kept
+from driveblocks.maps.rivals import own_address
 from driveblocks.render.environment import strict
 from driveblocks.simulator.copies import RPM_OF_ONE_PAIR
 from driveblocks.simulator.habits import Habits
@@ -260,6 +261,8 @@ def _shown(drive: Drive, made: Table, numbers: tuple[int, ...]) -> list[Context]
         found.setdefault(register, []).append(f"Value := (Value AND {word(~mask)}) OR {face};")
     for gauge in made.gauges:
         found.setdefault(gauge.register, []).append(_gauge(gauge))
+    if (own := own_address(drive)) is not None:
+        found[own] = ["Value := UINT_TO_WORD(Fate.Unit);"]
     for register, statement in (*_faults(made, numbers), *_chosen(drive), *_mistaken(drive)):
         found.setdefault(register, []).append(statement)
     return [{"register": mark(register), "statements": lines} for register, lines in sorted(found.items())]

@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 
 from driveblocks.maps.model import Drive
+from driveblocks.maps.rivals import first_reads
 from driveblocks.testing.scenes.ability import Ability
 from driveblocks.testing.scenes.motor import POWER, STANDS, run
 from driveblocks.testing.scenes.reason import REASONS
@@ -78,7 +79,7 @@ def scenes(drive: Drive) -> Iterator[Scene]:
     yield scene("silence after a restart", POWER, *_quiet(drive))
     yield scene("when a stop is overdue", POWER, run(), *_overdue())
     yield scene("when a status is too old", POWER, run(), *_stale())
-    yield scene("when a start is not followed", POWER, *_follow())
+    yield scene("when a start is not followed", POWER, *_follow(drive))
     yield scene("which call comes too late", POWER, *_restart())
     yield scene("a motor that ran before its command was acknowledged", *_ran())
     yield scene("one that runs the other way before that", *_other_way())
@@ -148,7 +149,7 @@ def _quiet(drive: Drive) -> Iterator[Step]:
     yield Step("a slow line on which it is quiet", MS | slow, ms=60 * SCAN_MS)
     yield Step("Restart", {"Pins.Restart": True, "Pins.TxBusy": False}, ms=SCAN_MS)
     yield Step("its first request", {"Pins.Restart": False}, "TxCount > 0", 2000, {
-        ".WaitedMs": _after(4, 110 if drive.identity else 14),
+        ".WaitedMs": _after(4, 110 if first_reads(drive) else 14),
     })  # fmt: skip
 
 
@@ -166,9 +167,12 @@ def _stale() -> Iterator[Step]:
     })  # fmt: skip
 
 
-def _follow() -> Iterator[Step]:
+def _follow(drive: Drive) -> Iterator[Step]:
+    """Each state on the way to a run is proved first."""
+    run = next(one for one in drive.operation.commands if one.does == "run_forward")
+    states = sum(step.until is not None for step in run.first)
     ignored: Shows = {"Fate.Local": True, "RunForward": True, "Pins.Settings.FollowWithinMs": 80}
-    yield Step("it does nothing", MS | ignored, why("NOT_FOLLOWED"), 4000, {".WaitedMs": _after(85, 130)})
+    yield Step("it does nothing", MS | ignored, why("NOT_FOLLOWED"), 4000, {".WaitedMs": _after(85, 130 + 15 * states)})
 
 
 def _restart() -> Iterator[Step]:

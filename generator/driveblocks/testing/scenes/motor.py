@@ -481,12 +481,12 @@ def _vain(can: Ability) -> Iterator[Step]:
     yield Step("the motor is at standstill", {"RunForward": False}, "Seen.Milli = 0", 4000)
     yield Step("FaultReset", {"FaultReset": True}, "Seen.Resets >= 1", 3000, {"Fault": True})
     slow: Shows = {"Pins.ElapsedMs": 5 * SCAN_MS, "Pins.MaxScanMs": 5 * SCAN_MS}
-    yield Step("ten seconds have not helped", slow, why("NO_RESET"), 2600, {"Fault": True, "Ready": False})
+    yield Step("ten seconds have not helped", slow, why("FAULT_BACK"), 2600, {"Fault": True, "Ready": False})
     yield Step(
         "one is enough where it is answered",
         {"Pins.ElapsedMs": SCAN_MS},
         ms=500,
-        shows={"Seen.Resets": 1, "Reason": "NO_RESET"},
+        shows={"Seen.Resets": 1, "Reason": "FAULT_BACK"},
     )
     yield Step("the cause is gone, the pin falls", {"Fate.Cause": False, "FaultReset": False}, ms=100)
     yield Step("a new edge", {"FaultReset": True}, "Motor.Ready", 4000, {"Fault": False, "Reason": "READY"})
@@ -548,9 +548,9 @@ def _nine_faults(can: Ability) -> Iterator[Step]:
     codes = [first, second, second, first, first, first, second, first, second]
     for count, code in enumerate(codes, 1):
         shown = code if can.code else 0
-        yield Step(f"fault {count}", {"Fate.Trips": code}, ms=500 * can.turns, shows={
-            "Fault": True, "FaultCode": shown, "Motor.Diagnosis.FaultBack1": shown,
-        })  # fmt: skip
+        known = f"Motor.Fault AND (Motor.FaultCode = {shown})"
+        yield Step(f"fault {count}", {"Fate.Trips": code}, known, 1500 * can.turns, {"FaultCode": shown})
+        yield Step("it is kept", ms=200 * can.turns, shows={"Fault": True, "Motor.Diagnosis.FaultBack1": shown})
         yield Step("it is reset", {"Fate.KeypadReset": True}, "NOT Motor.Fault", 1500)
     kept = [code if can.code else 0 for code in reversed(codes)][:8]
     yield Step("all are kept", ms=100, shows={
@@ -558,9 +558,8 @@ def _nine_faults(can: Ability) -> Iterator[Step]:
     } | {"Motor.Diagnosis.FirstFaultCode": first if can.code else 0})  # fmt: skip
     yield Step("the PLC restarts", {"Pins.Restart": True}, ms=40)
     yield Step("it has stopped it", {"Pins.Restart": False}, "Motor.StopConfirmed", 3000)
-    yield Step("its first fault", {"Fate.Trips": second}, ms=400 * can.turns, shows={
-        "Motor.Diagnosis.FirstFaultCode": second if can.code else 0, "Fault": True,
-    })  # fmt: skip
+    kept_first = f"Motor.Fault AND (Motor.Diagnosis.FirstFaultCode = {second if can.code else 0})"
+    yield Step("its first fault", {"Fate.Trips": second}, kept_first, 1500 * can.turns)
 
 
 # ---------------------------------------------------------------- silence and disobedience

@@ -29,6 +29,8 @@ VARIABLES = {
     "NotWish": ("VFD_Asked", "nothing"),
     "Kept": ("VFD_Diagnosis", "what is kept of a drive"),
     "Lone": ("MB_Slot", "a slot that no line serves"),
+    "Said": ("MB_Answer", "the answer to a stop"),
+    "Told": ("MB_Answer", "the answer to a command"),
     "Trail": ("MB_StopTrack", "what is kept about a stop"),
     "Ear": ("MB_LineFrame", "a reply"),
     "Count": ("UDINT", "what a user keeps"),

@@ -4,9 +4,10 @@ from collections.abc import Iterator, Mapping
 
 from driveblocks.maps.form import is_bit
 from driveblocks.maps.model import Command, Drive
+from driveblocks.maps.rivals import first_reads, refusals
 from driveblocks.reference.command import Commands
 from driveblocks.testing.scenes.ability import Ability
-from driveblocks.testing.scenes.drive import busy, mark, simulated
+from driveblocks.testing.scenes.drive import busy, mark
 from driveblocks.testing.scenes.motor import NOTHING_STARTED, RUNNING, STANDS
 from driveblocks.testing.scenes.scene import More, Scene, Shows, Step, Value, scene, script
 from driveblocks.testing.script import Script
@@ -42,12 +43,12 @@ def scenes(drive: Drive) -> Iterator[Scene]:
 
 def known(drive: Drive) -> Shows:
     """What a slot holds of a family, whatever its motor does."""
-    form, silence = simulated(drive).dialect, drive.serial.silence
+    form, silence = refusals(drive), drive.serial.silence
     stop, jog = _command(drive, "stop"), _command(drive, "jog_stop")
     found: Shows = {
         "UnitAddress": drive.serial.unit.min, "StopWithinMs": 5000, "HasStop": True, "SupplyOff": False,
         "SilenceMs": int(silence.milliseconds or 0) if silence else 0, "PollEveryMs": 0,
-        "ExceptionAdd": 0 if form.address is not None else form.added, "ErrorFunction": form.function or 0,
+        "ExceptionAdd": form.added, "ErrorFunction": form.function or 0,
         "ErrorAddress": word(form.address or 0), "BusyReason": busy(drive), "TwoByteCount": form.two_byte_count,
         "Ask[0].FunctionCode": _write(drive, stop.register), "Ask[0].Quantity": 1,
         "Ask[0].Address": word(stop.register),
@@ -113,7 +114,7 @@ LEFT: Shows = {
 def _not_blank(drive: Drive) -> Iterator[Step]:
     left = {f"Slots[0].{key}": value for key, value in LEFT.items()}
     at_once = known(drive)
-    if drive.identity:
+    if first_reads(drive):
         del at_once["Ask[0].FunctionCode"]  # no stop may be sent before the drive has said what it is
     held: Shows = left | _junk(known(drive)) | {"Pins.Settings.KeepWord": word(KEPT)}
     yield Step("memory holds what was there before", held, ms=60, shows=_slot(at_once) | NOTHING_STARTED | {
@@ -128,7 +129,7 @@ def _not_blank(drive: Drive) -> Iterator[Step]:
     } | _nothing_waits()))  # fmt: skip
     run = _command(drive, "run_forward")
     reference = drive.operation.reference.register
-    yield Step("it runs as ever", {"RunForward": True}, "Motor.Running", 3000, {
+    yield Step("it runs as ever", {"RunForward": True, "Pins.Settings.RefreshMs": 65535}, "Motor.Running", 3000, {
         "Seen.Starts": 1, "Seen.LastRegister = " + word(mark(run.register)): True,
     })  # fmt: skip
     yield Step("what the line knows then", ms=20, shows=_slot(known(drive) | {
