@@ -33,6 +33,8 @@ SENT = dict(
 )
 """What the control calls a command."""
 ALL, SIGN = 0xFFFF, 0x8000
+BELIEVED = "NOT Doubtful AND (Surplus = Was.SurplusSeen)"
+"""What nobody else can have asked for."""
 NEAR = (
     "AtSpeed = (Running AND Diagnosis.OutputFrequencyValid AND (OutputFrequencyHz >= Speed.AskedHz - REAL#0.5) "
     "AND (OutputFrequencyHz <= Speed.AskedHz + REAL#0.5))"
@@ -167,13 +169,23 @@ def _comes(number: int, poll: Poll) -> str:
     return f"Fresh AND NOT Anew AND (Entry = {number}) AND (Count >= {poll.words})"
 
 
+def _at_once(drive: Drive, poll: Poll) -> bool:
+    """Whether its words count though they are doubtful: they show motion, or that there is a fault."""
+    if poll.fast or any(one.shows == "fault" for one in drive.operation.status):
+        return poll.fast
+    words = set(range(poll.address, poll.address + poll.words))
+    bits = drive.faults.bits
+    faults = set(range(bits.first, bits.last + 1)) if bits else {drive.faults.present}
+    return bool(words & faults)
+
+
 def _read(drive: Drive) -> dict[str, str]:
     """What the block that reads owes: which word of a poll is which, whose turn it is, what ages, and what is proof."""
     reads = polls(drive)
     taken: list[str] = []
     for number, poll in enumerate(reads, 1):
-        come = _comes(number, poll)
         words = range(poll.address, poll.address + poll.words)
+        come = _comes(number, poll) + ("" if _at_once(drive, poll) else f" AND {BELIEVED}")
         for address in sorted((fast_words(drive) | slow_words(drive)) & set(words)):
             name, at = word_input(drive, address).name, address - poll.address
             said = f"(SHR(Words[0], {at}) AND {word(1)})" if is_bit(address) else f"Words[{at}]"
@@ -194,7 +206,7 @@ def _read(drive: Drive) -> dict[str, str]:
         "status_age": _every(f"Reads.StatusAgeMs >= Reads.Age{number}" for number in fast)
         + f" AND ({_any(f'Reads.StatusAgeMs = Reads.Age{number}' for number in fast)})",
         "proves": _every(f"Since{number}" for number in _proof_reads(drive)),
-        "speed": _any(_comes(number, reads[number - 1]) for number in _speed_reads(drive)),
+        "speed": _any(f"({_comes(number, reads[number - 1])}) AND {BELIEVED}" for number in _speed_reads(drive)),
         "ages": _every(
             f"(Age{number} = MB_Plus(Number := Was.Age{number}, More := PassedMs)) "
             f"OR Fresh AND (Entry = {number}) AND (Age{number} = PassedMs)"
@@ -259,6 +271,7 @@ def _shown(drive: Drive) -> dict[str, str]:
         "ready_shown": f"(CommOk AND ({_any(ready)}))" if ready else "TRUE",
         "verified": _every(word for _, word in verify),
         "settings_since": _every(f"Reads.Since{number}" for number in _settings_reads(drive)),
+        "settled_read": "(NOT Settled.Proved OR Reads.SettingsRead)" if _settings_reads(drive) else "TRUE",
         "settings_said": _every(f"({decoded}) = ({word})" for decoded, word in verify),
         "said": _every(said),
         "pins": _every(pins),

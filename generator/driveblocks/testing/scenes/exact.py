@@ -172,7 +172,7 @@ def _follow(drive: Drive) -> Iterator[Step]:
     run = next(one for one in drive.operation.commands if one.does == "run_forward")
     states = sum(step.until is not None for step in run.first)
     ignored: Shows = {"Fate.Local": True, "RunForward": True, "Pins.Settings.FollowWithinMs": 80}
-    yield Step("it does nothing", MS | ignored, why("NOT_FOLLOWED"), 4000, {".WaitedMs": _after(85, 130 + 15 * states)})
+    yield Step("it does nothing", MS | ignored, why("NOT_FOLLOWED"), 4000, {".WaitedMs": _after(85, 130 + 30 * states)})
 
 
 def _restart() -> Iterator[Step]:
