@@ -67,7 +67,8 @@ class Case:
                 self.tell("moved", f"unit {unit} turns by {data.hex()}")
         strange = (data[1], int.from_bytes(data[2:4], "big"), data[4:]) not in self.allowed.get(unit, set())
         late = exchange.begins > self.joined_us + JOINED_US
-        if data[1] > LAST_READ and strange and late and self.hall.models.get(unit):
+        taken = any(reply[:6] == data[:6] for _, _, reply in exchange.replies)  # else it is no register of that drive
+        if data[1] > LAST_READ and strange and late and taken:
             self.tell("write", f"{data.hex()} to unit {unit}")
 
     def tell(self, rule: str, seen: str) -> None:
