@@ -74,6 +74,16 @@ class Strange(Bench):
         self.there, self.options = drives, options
         super().__init__(*blocks, stations=library or stations(blocks), start=False)
 
+    def restart(self) -> "Strange":
+        """As for every bench."""
+        super().restart()
+        return self
+
+    def stopped(self, drive: int = 0) -> "Strange":
+        """As for every bench."""
+        super().stopped(drive)
+        return self
+
     def simulated(self, habits: Habits, ascii_: bool) -> list[Any]:  # noqa: ARG002  (as the bench calls it)
         """The strangers."""
         return [Model(family, at, **self.options) for at, family in enumerate(self.there, 1)]
