@@ -65,10 +65,24 @@ class Model(SimulatedDrive):
 class Strange(Bench):
     """Blocks of some families, and at their addresses drives of others."""
 
-    def __init__(self, blocks: tuple[str, ...], drives: tuple[str, ...], **options: Any) -> None:
+    drives: list[Any]
+
+    def __init__(
+        self, blocks: tuple[str, ...], drives: tuple[str, ...], library: Library | None = None, **options: Any
+    ) -> None:
         """Power up; drive n has the address of block n."""
         self.there, self.options = drives, options
-        super().__init__(*blocks, stations=stations(blocks), start=False)
+        super().__init__(*blocks, stations=library or stations(blocks), start=False)
+
+    def restart(self) -> "Strange":
+        """As for every bench."""
+        super().restart()
+        return self
+
+    def stopped(self, drive: int = 0) -> "Strange":
+        """As for every bench."""
+        super().stopped(drive)
+        return self
 
     def simulated(self, habits: Habits, ascii_: bool) -> list[Any]:  # noqa: ARG002  (as the bench calls it)
         """The strangers."""

@@ -3,9 +3,13 @@
 from collections.abc import Callable
 
 import pytest
+from tests.blocks.compare.comparison import beside
 from tests.drives.strangers import PAIRS, Strange
 from tests.second.line import Faults, Frame
 from tests.second.pf4 import VARIANTS
+from tests.second.station import built
+
+from structured_text.engines.engine import Engine
 
 POWERFLEX = ("PF4", *VARIANTS)
 OWN_ADDRESS = {"PF525": 0x7C, "GD200A": 0x0E00, "SN300G5": 0x041C}
@@ -27,6 +31,18 @@ def test_it_is_told_from_another_make_before_its_first_stop(block: str, drive: s
     assert bench.reason() == "OTHER_DRIVE"
     assert bench.shows("StopOverdue")
     assert bench.block["TheLine.StopOverdue"]
+
+
+@pytest.mark.thorough
+def test_they_are_told_apart_on_matiec(matiec: Engine) -> None:
+    for engine in beside(matiec).values():
+        library = built(engine, [(one,) for one in dict(FEW)])
+        for block, drive in FEW:
+            bench = Strange((block,), (drive,), library).restart()
+            bench.run(4000)
+            assert (bench.drives[0].turned, bench.drives[0].changes) == (0.0, [])
+            assert bench.reason() == "OTHER_DRIVE"
+            Strange((block,), (block,), library).restart().stopped()
 
 
 @pytest.mark.thorough
@@ -80,7 +96,10 @@ def reads(frames: list[Frame], register: int) -> list[Frame]:
 
 @pytest.mark.parametrize("kind", list(OWN_ADDRESS))
 def test_its_own_drive_shows_its_address_twice_and_is_stopped_soon(kind: str) -> None:
-    bench = Strange((kind,), (kind,)).restart().stopped()
+    bench, overdue = Strange((kind,), (kind,)), list[object]()
+    bench.watch.append(lambda each: overdue.append(each.block["TheLine.StopOverdue"]))
+    bench.restart().stopped()
+    assert not any(overdue[1:])
     first = next(at for at, each in enumerate(bench.frames) if not each.read)
     # twice, and the line repeats a standing read until its block has seen the answer
     assert 2 <= len(reads(bench.frames[:first], OWN_ADDRESS[kind])) <= 4
