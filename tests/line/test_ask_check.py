@@ -12,7 +12,7 @@ FIELDS = {
     "FunctionCode": "USINT",
     "Quantity": "USINT",
     "Unit": "USINT",
-    "Family": "UINT",
+    "FamilyCode": "UINT",
     "Data": "WORD",
 }
 PROGRAM = f"""PROGRAM T_AskCheck
