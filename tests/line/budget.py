@@ -177,7 +177,8 @@ class Line:
         seen, slot, one = self.hall.seen(at), self.hall.slots[at], self.models[at]
         worst = max(seen.worst, int(slot["WorstReadMs"]))
         if one.fault == one.LINE_LOST:
-            return min(worst, slot["WorstFeedMs"]) * US > (one.o.comm_us or 0)
+            worst, most = min(worst, int(slot["WorstFeedMs"])), (one.o.comm_us or 0) // US
+            return worst > most
         return worst > self.stale(at)
 
     def _who(self, at: int) -> str:
