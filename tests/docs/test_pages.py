@@ -490,3 +490,15 @@ def test_the_contact_of_the_hard_stop_does_what_its_page_says(engine: Engine) ->
         block["Overdue"], block["Restart"], block["Reset"] = overdue, restart, reset
         block.scan()
         assert block["HardStopOk"] == closed, why
+
+
+def test_the_page_of_swapping_says_whose_stop_moves_a_drive_of_another_make() -> None:
+    text = (FOLDER / "Swapping.md").read_text("utf-8")
+    assert "| JSCC | CHF | **motion**: 1000H = 0003H, there its jog forward | by 2001H, a value that only it" in text
+    assert (
+        "| PF525 | GD200A | **motion**: 2000H = 0001H, there its run forward | by 007CH, its own unit address" in text
+    )
+    drive = shapes()["active_low"]
+    files = [*generic(LANGUAGES), *library_of("mine", drive, LANGUAGES)]
+    (row,) = [each for each in documents(files, [drive])["docs/Swapping.md"].splitlines() if "LOW | CHF |" in each]
+    assert "its run forward" in row, "a family that ships counts, too"

@@ -207,9 +207,16 @@ def _swapped(drive: Drive) -> dict[str, str]:
 
 
 def _mistaken(drives: list[Drive]) -> Iterator[dict[str, str]]:
-    """The families whose stop does harm at a drive of another, those together of which the same is so."""
+    """The families whose stop does harm at a drive of another, those together of which the same is so.
+
+    One of the two is built here; the other may be any that ships.
+    """
     found: dict[tuple[str, str, str], dict[str, None]] = {}
-    for pair in rivals.pairs(drives):
+    built = {drive.prefix: drive for drive in drives}
+    every = {drive.prefix: drive for drive in rivals.shipped()} | built
+    for pair in rivals.pairs(every.values()):
+        if built.keys().isdisjoint((pair.block.prefix, pair.drive.prefix)):
+            continue
         stop = f"{address_text(pair.worst.register)} = {pair.worst.word:04X}H, there {pair.worst.says}"
         told = f"by {pair.told}" if pair.told else "**nothing**"
         what = "**motion**" if pair.worst.means == "motion" else "another register"
