@@ -163,16 +163,23 @@ class Line:
         seen, slot, d = self.hall.seen(at), self.hall.slots[at], self.hall.drives[at]
         stale, worst = self.stale(at), max(seen.worst, int(slot["WorstReadMs"]))
         by, one = "others" if self.gone else "load", self.models[at]
-        slow = worst > stale or (
-            one.fault == one.LINE_LOST and min(worst, slot["WorstFeedMs"]) * US > (one.o.comm_us or 0)
-        )
-        if worst and slow and not self.draw.strict:
+        if self.slow(at) and (not self.draw.strict or one.fault == one.LINE_LOST):
             return
         self.out.tell(
             f"stopped by {by}",
             f"{self._who(at)} with {exchange.data.hex()}: StopReason {d['DIAGNOSIS.StopReason']:.0f}, "
-            f"Reason {d['Reason']:.0f}, age at most {seen.age} of {worst} ms, StaleMs {stale}, fault {one.fault}",
+            f"Reason {d['Reason']:.0f}, age at most {seen.age} of {worst} ms, StaleMs {stale}, fault {one.fault},"
+            f" WorstFeedMs {slot['WorstFeedMs']:.0f}",
         )
+
+    def slow(self, at: int) -> bool:
+        """Its line has said that it may be read, or its watchdog fed, too seldom."""
+        seen, slot, one = self.hall.seen(at), self.hall.slots[at], self.models[at]
+        worst = max(seen.worst, int(slot["WorstReadMs"]))
+        if one.fault == one.LINE_LOST:
+            worst, most = min(worst, int(slot["WorstFeedMs"])), (one.o.comm_us or 0) // US
+            return worst > most
+        return worst > self.stale(at)
 
     def _who(self, at: int) -> str:
         return f"{self.hall.now // US} ms, {self.draw.families[at]} {at + 1}"
@@ -223,8 +230,7 @@ class Line:
             h.run(h.now + 100_000)
             self._keep(may)
         for at in may:
-            worst = h.seen(at).worst
-            if at not in self.kept and (self.draw.strict or not worst > self.stale(at)):
+            if at not in self.kept and (self.draw.strict or not self.slow(at)):
                 d = h.drives[at]
                 self.out.tell(
                     "start", f"{self._who(at)}: Reason {d['Reason']:.0f}, StopReason {d['DIAGNOSIS.StopReason']:.0f}"
