@@ -100,9 +100,9 @@ def test_every_request_says_whose_it_is_and_a_stop_is_whole(kind: str) -> None:
     for run in (True, False):
         _ = bench.running() if run else bench.put(RunForward=False).stopped()
         for box in (0, 1, 3):
-            assert (asked(bench, box, "Unit"), asked(bench, box, "Family")) == (1, own)
+            assert (asked(bench, box, "Unit"), asked(bench, box, "FamilyCode")) == (1, own)
         checks.add((asked(bench, 0, "Number"), asked(bench, 0, "Check")))
-    assert (bench.block["Slots[0].Family"], bench.block["Slots[0].Abi"]) == (own, 256 * ABI)
+    assert (bench.block["Slots[0].FamilyCode"], bench.block["Slots[0].Abi"]) == (own, 256 * ABI)
     assert len({check for _, check in checks}) == len({number for number, _ in checks})
 
 

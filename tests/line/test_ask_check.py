@@ -12,7 +12,7 @@ FIELDS = {
     "FunctionCode": "USINT",
     "Quantity": "USINT",
     "Unit": "USINT",
-    "Family": "UINT",
+    "FamilyCode": "UINT",
     "Data": "WORD",
 }
 PROGRAM = f"""PROGRAM T_AskCheck
@@ -39,7 +39,9 @@ def test_a_stop_that_is_half_another_does_not_fit(engine: Engine) -> None:
         for name, value in zip(FIELDS, values, strict=True):
             program[name] = value
         program.scan()
-        return int(program["Check"])
+        found = program["Check"]
+        assert isinstance(found, int)
+        return found
 
     assert check(STOPS[0]) != 0
     for old, new in product(STOPS, repeat=2):

@@ -232,7 +232,7 @@ static void adapter_task(us end) {
 static void ask(MB_ASK *box, int function, int address, int quantity, unsigned value) {
   box->FUNCTIONCODE = function; box->ADDRESS = address; box->QUANTITY = quantity; box->WORDS.table[0] = value;
 }
-static WORD check(const MB_ASK *box) { return MB_ASKCHECK(1, 0, box->NUMBER, box->ADDRESS, box->FUNCTIONCODE, box->QUANTITY, box->UNIT, box->FAMILY, box->WORDS.table[0]); }
+static WORD check(const MB_ASK *box) { return MB_ASKCHECK(1, 0, box->NUMBER, box->ADDRESS, box->FUNCTIONCODE, box->QUANTITY, box->UNIT, box->FAMILYCODE, box->WORDS.table[0]); }
 static void post(MB_ASK *box) { box->NUMBER = box->NUMBER % 65535 + 1; box->CHECK = check(box); }
 static int waits(int i, int box) { return slots[i].ASK.table[box].NUMBER != slots[i].ANSWER.table[box].NUMBER; }
 static void drive_block(int i, us warm) {
@@ -287,14 +287,14 @@ static void begin(void) {
   next_tick = 0;
   for (int i = 0; i < c.drives; i++) {
     MB_SLOT *slot = &slots[i];
-    slot->ABI = ABI_WORD; slot->UNITADDRESS = i + 1; slot->FAMILY = c.kind + 1; slot->TURNROUNDMS = c.turn_ms; slot->LONGESTMS = c.drain ? c.turn_ms : c.longest_ms;
+    slot->ABI = ABI_WORD; slot->UNITADDRESS = i + 1; slot->FAMILYCODE = c.kind + 1; slot->TURNROUNDMS = c.turn_ms; slot->LONGESTMS = c.drain ? c.turn_ms : c.longest_ms;
     slot->EXCEPTIONADD = kind->exception_add; slot->ERRORFUNCTION = kind->error_function; slot->ERRORADDRESS = kind->error_address;
     /* of coils a reply tells its bytes alone: another number of them */
     slot->OTHERQUANTITY = kind->read_function > 2 ? c.words + 1 : c.words > 8 ? c.words - 8 : c.words + 8; slot->POLLEVERYMS = c.poll_ms; slot->SILENCEMS = c.silence_ms;
     ask(&slot->ASK.table[0], kind->stop_function, kind->stop_address, kind->stop_words, kind->stop_word);
     slot->STOPREGISTER = kind->stop_address; slot->STOPWORD = kind->stop_word; slot->HASSTOP = 1;
     ask(&slot->ASK.table[3], kind->read_function, kind->read_address, c.words, 0); slot->ASK.table[3].NUMBER = 1;
-    for (int box = 0; box < 4; box++) { slot->ASK.table[box].UNIT = i + 1; slot->ASK.table[box].FAMILY = c.kind + 1; }
+    for (int box = 0; box < 4; box++) { slot->ASK.table[box].UNIT = i + 1; slot->ASK.table[box].FAMILYCODE = c.kind + 1; }
     slot->ASK.table[0].CHECK = check(&slot->ASK.table[0]);
     drive[i].alive = 1; drive[i].last_reset = -1; drive[i].next_command = between(0, 1000) * 1000;
   }

@@ -26,7 +26,7 @@ NAMES = {result.code: result.name for result in RESULTS}
 RX = [f"Port.Rx[{place}]" for place in range(256)]
 ALIVE = [f"Slots[{slot}].Alive" for slot in range(32)]
 ABIS = [f"Slots[{slot}].Abi" for slot in range(32)]
-CHECKED = ("Number", "Address", "FunctionCode", "Quantity", "Unit", "Family")
+CHECKED = ("Number", "Address", "FunctionCode", "Quantity", "Unit", "FamilyCode")
 """Fields of a stop that its check is of, before its word."""
 Edit = Callable[[str], str]
 
@@ -173,7 +173,7 @@ class Bench:
         kind, path = self.kind, f"Slots[{slot}]."
         fields = {
             "UnitAddress": slot + 1,
-            "Family": self.config.kind + 1,
+            "FamilyCode": self.config.kind + 1,
             "TurnRoundMs": self.config.turn_ms,
             "LongestMs": self.config.longest_ms,
             "ExceptionAdd": kind.exception_add,
@@ -220,7 +220,7 @@ class Bench:
     def _own(self, slot: int, box: int) -> None:
         """Write whose a request is, as its drive block does."""
         path = f"Slots[{slot}].Ask[{box}]."
-        self.block[path + "Unit"], self.block[path + "Family"] = (self.slot(slot, n) for n in ("UnitAddress", "Family"))
+        self.block[path + "Unit"], self.block[path + "FamilyCode"] = (self.slot(slot, n) for n in ("UnitAddress", "FamilyCode"))
         if box == STOP:
             self.block[path + "Check"] = check(*(self[path + name] for name in CHECKED), self[path + "Words[0]"])
 

@@ -29,7 +29,8 @@ def unreached(can: Ability, *, writes: bool) -> dict[str, str]:
     if not can.shows("ready"):
         found["NOT_READY"] = "the drive does not show whether it is ready"
     if not can.can("fault_reset"):
-        found["RESETTING"] = "the drive has no fault reset by the bus"
+        for name in ("RESETTING", "NO_FAULT", "FAULT_BACK"):
+            found[name] = "the drive has no fault reset by the bus"
     if not writes:
         found["WRITE_WAITS"] = "the map lists no parameter that may be written"
     if set(can.motions) == set(MOTIONS):
