@@ -135,8 +135,8 @@ def taken(name: str) -> str:
 
 
 def since(read: int) -> str:
-    """The flag that a read has come since it was asked for."""
-    return f"Since{read}"
+    """The flag that a read has come since it was asked for, and was ours."""
+    return f"Sure{read}"
 
 
 def age(read: int) -> str:
