@@ -174,12 +174,12 @@ class Line:
 
     def slow(self, at: int) -> bool:
         """Its line has said that it may be read, or its watchdog fed, too seldom."""
-        seen, slot, one = self.hall.seen(at), self.hall.slots[at], self.models[at]
-        worst = max(seen.worst, int(slot["WorstReadMs"]))
+        slot, one = self.hall.slots[at], self.models[at]
+        worst = max(self.hall.seen(at).worst, int(slot["WorstReadMs"]))
+        most = self.stale(at)
         if one.fault == one.LINE_LOST:
             worst, most = min(worst, int(slot["WorstFeedMs"])), (one.o.comm_us or 0) // US
-            return worst > most
-        return worst > self.stale(at)
+        return bool(worst > most)
 
     def _who(self, at: int) -> str:
         return f"{self.hall.now // US} ms, {self.draw.families[at]} {at + 1}"

@@ -37,6 +37,8 @@ class Turns:
         """Time of each, in ms, and whether a request was open in it."""
         self.posted_us = self.vain_us = 0
         """When a request was last sent, and when one was last lost, not answered, or refused."""
+        self.lost: dict[int, Exchange] = {}
+        """Reads that were not answered, by drive, until it is asked again."""
         self.deaf: set[int] = set()
         self.silent_us, self.spent_us, self.longest_us = 0, 0, 0
         """Drives that are silent, while others answer, and since when that is known; how long requests to them have had
@@ -44,6 +46,8 @@ class Turns:
 
     def answered(self, last: "Exchange", now: "Exchange") -> None:
         """A request after another."""
+        if not self.wire.plain():
+            self.lost.clear()
         if now.index >= len(self.judge.units) or not self.wire.plain():
             return
         free = self._free(last) and self._free(now) and self.wire.somebody()
@@ -53,23 +57,21 @@ class Turns:
             gap_us = start - last.replies[-1][1]
             least = SILENCE_US["JSCC" in self.bench.types]
             self.judge.once(now.index, "silence", bad=gap_us < least, seen=(gap_us, "of", least, "us"))
-        elif last.index < len(self.judge.units):
-            self._lost(last, now)
+        elif last.index < len(self.judge.units) and last.data[1] <= LAST_READ and self.slot(last.index, "Online"):
+            self.lost[last.index] = last
+        self._after_lost(now)
 
-    def _lost(self, last: "Exchange", now: "Exchange") -> None:
-        """A lost read is sent again at once, with another length if it has one, and once no reply can come."""
-        index, once, block = now.index, self.judge.once, self.bench.block
-        if max(last.data[1], now.data[1]) > LAST_READ or not block[f"Slots[{last.index}].Online"]:
+    def _after_lost(self, now: "Exchange") -> None:
+        """A unit that owes a reply gets nothing but stops until none can come; then another length, if it has one."""
+        index, once = now.index, self.judge.once
+        last = self.lost.get(index)
+        if last is None or (now.data[1] > LAST_READ and not self._free(now)):
             return
+        del self.lost[index]
         gap_ms = (now.end - last.end) // 1000 - self.bench.characters_ms(len(now.data) + 2)
-        least = self.slot(last.index, "LongestMs")
+        least = self.slot(index, "LongestMs")
         once(index, "drains", bad=gap_ms < least, seen=(gap_ms, "of", least, "ms"))
-        mine = [each for each in self.wire.mine(last.index)[1:] if each.data[1] <= LAST_READ]
-        first = bool(mine) and bool(mine[0].replies)
-        probe = not block[f"Slots[{index}].Online"]  # a dead drive's, whose turn it is
-        bad = first and index != last.index and not probe
-        once(index, "again at once", bad=bad, seen=(last.data.hex(), now.data.hex()))
-        same = index == last.index and now.data[:4] == last.data[:4]
+        same = now.data[:4] == last.data[:4]
         other = self.slot(index, "OtherQuantity") not in (0, self.slot(index, "Ask[3].Quantity"))
         once(index, "other length", bad=same and other and now.data[5] == last.data[5], seen=(now.data.hex(),))
 

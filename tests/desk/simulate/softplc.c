@@ -56,30 +56,11 @@ static void tell(int64_t ms) {
   fflush(stdout);
 }
 
-/* What the line leaves as its last will while it does not do so itself: the stop that the drive block gives it. */
-static void will(void) {
-  MB_PORT *const port = &desk.BUS.BUS.PORT.value;
-  const MB_SLOT *const slot = &desk.SLOTS.value.table[0];
-  const uint8_t bytes[6] = {slot->UNITADDRESS, 6, slot->STOPREGISTER >> 8, slot->STOPREGISTER & 255,
-                            slot->STOPWORD >> 8, slot->STOPWORD & 255};
-  unsigned check = 0xFFFF;
-  for (int at = 0; at < 6; at++) {
-    check ^= port->WILL.table[at] = bytes[at];
-    for (int bit = 0; bit < 8; bit++) check = check >> 1 ^ (check & 1 ? 0xA001 : 0);
-  }
-  port->WILL.table[6] = check & 255;
-  port->WILL.table[7] = check >> 8;
-  port->WILLSLOT = 0;
-  port->WILLCOUNT = slot->HASSTOP ? 8 : 0;
-  port->WILLMS = 60;
-}
-
 static void *scans(void *nothing) {
   const int64_t begun = now_us();
   int64_t due = begun, told = 0;
   int before = -1;
   while (take()) {
-    will();
     DESK_body__(&desk);
     const int seen = desk.MOTOR.COMMOK.value | desk.MOTOR.RUNNING.value << 1 | desk.MOTOR.FAULT.value << 2 |
                      desk.MOTOR.STOPCONFIRMED.value << 3;
