@@ -71,9 +71,7 @@ NUMBERS = {
     "DOUBLED_NOT": (0, "no other slot has its unit address"),
     "DOUBLED_FIRST": (1, "another slot has taken its unit address"),
     "DOUBLED_LATER": (2, "it has taken that of another slot"),
-    # events of MB_OneSlot, MB_Sending, MB_Exchange and MB_Next
-    "SLOT_BEGINS": (0, "what holds for all slots is given"),
-    "SLOT_SCAN": (1, "a slot is looked at"),
+    # events of MB_Sending, MB_Exchange and MB_Next
     "SENDING_BEGINS": (0, "a request is chosen and booked as sent"),
     "SENDING_ENDS": (1, "it has ended"),
     "SENDING_BACK": (2, "it is taken out of the mailbox"),

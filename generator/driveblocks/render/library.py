@@ -22,7 +22,7 @@ FRAME_BLOCKS = (
 )  # fmt: skip
 LINE_TYPES = (
     "MB_LineFrame", "MB_RxRing", "MB_Port", "MB_Words4", "MB_Words16", "MB_Ask", "MB_Asks", "MB_Answer", "MB_Answers",
-    "MB_Slot", "MB_StopTrack", "MB_StopCopy", "MB_Track", "MB_Heard", "MB_Sums",
+    "MB_Slot", "MB_StopTrack", "MB_StopCopy", "MB_Track", "MB_Given", "MB_Heard", "MB_Sums",
 )  # fmt: skip
 LINE_BLOCKS = (
     "MB_CrcByte", "MB_Plus", "MB_Minus", "MB_Sixteen", "MB_Usual", "MB_Retries", "MB_Characters", "MB_WireMs",
