@@ -21,16 +21,8 @@ from structured_text.engines.engine import Source as Text
 
 GENERIC = "every drive"
 """How the blocks are called that every drive shares."""
-<<<<<<< HEAD
-LARGE = ("Line8", "Line32")
-"""What the names of blocks end with that only hand from one block to the next, slot by slot; no rule is about them."""
-=======
 LARGE = tuple(f"Line{slots}" for slots in library.LINE_SIZES)
-"""What the names of blocks end with that run all slots of a line in loops; of the first a part is proved."""
-NEXT = "MB_Line8_Next"
-"""How that part is called, which chooses the drive to be asked next: from and up to these words of its body."""
-FROM, TO = "  (* who is next:", "  (* the request *)"
->>>>>>> memory
+"""What the names of blocks end with that only hand from one block to the next, slot by slot; no rule is about them."""
 
 
 @dataclass(frozen=True)
