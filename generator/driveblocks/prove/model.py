@@ -107,9 +107,10 @@ def models(sources: Sequence[Source], subjects: Sequence[Subject]) -> list[Model
         units.append(parse(text, f"the rules of {subject.block}"))
     checked = check(units)
     made = [_model(subject, _pou(checked, subject.block), checked) for subject in subjects]
-    proved = {each.pou.unit.path for each in made if each.subject.exact and each.pou.unit is not None}
+    own = [each for each in made if each.subject.exact or (isinstance(each.pou, Function) and not each.subject.given)]
+    proved = {each.pou.unit.path for each in own if each.pou.unit is not None}
     for each in made:
-        if not each.subject.exact:
+        if each not in own:
             each.obligations[:] = [one for one in each.obligations if one.path not in proved]
     return made
 

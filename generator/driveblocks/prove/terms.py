@@ -127,15 +127,15 @@ class Terms:
         if isinstance(kind, Elementary):
             self._put(each.target, self.value(each.value))
         else:
-            self._copy(self._place(each.target), self._place(each.value), kind)
+            self._copy(self._place(each.target), self._places(each.value), kind)
 
     def _put(self, target: Expression, value: Term) -> None:
         for condition, path in self._places(target):
             self.store[path] = choice(condition, value, self.store[path])
 
-    def _copy(self, to: str, source: str, kind: Type) -> None:
+    def _copy(self, to: str, sources: list[tuple[Term, str]], kind: Type) -> None:
         for leaf in leaves(kind):
-            self.store[to + leaf.path] = self.store[source + leaf.path]
+            self.store[to + leaf.path] = self._chosen([(condition, path + leaf.path) for condition, path in sources])
 
     def _branches(self, branches: list[tuple[Expression, list[Statement]]], otherwise: list[Statement]) -> None:
         if not branches:
@@ -231,7 +231,7 @@ class Terms:
         if isinstance(plain(kind), Elementary):
             self.store[path] = self.value(value)
         else:
-            self._copy(path, self._place(value), kind)
+            self._copy(path, self._places(value), kind)
 
     def _function(self, call: Call, target: Function) -> Term:
         """Call a function: its variables begin anew each time."""
@@ -278,7 +278,10 @@ class Terms:
         return self.value(symbol.start)
 
     def _read(self, each: Expression) -> Term:
-        *others, (_, last) = self._places(each)
+        return self._chosen(self._places(each))
+
+    def _chosen(self, places: list[tuple[Term, str]]) -> Term:
+        *others, (_, last) = places
         found = self.store[last]
         for condition, path in others:
             found = choice(condition, self.store[path], found)
