@@ -33,7 +33,10 @@ def test_tables_fit_and_name_what_does_not_hold(columns: int) -> None:
     ]  # fmt: skip
     assert [row[-1] for row in rows if row[:1] in (["4800"], ["9600"])] == ["stops", "yes"]
     said = " ".join(good.stdout.split()), " ".join(bad.stdout.split())
-    both = "all stops are sent within {} ms and every watchdog is fed in half of its time"
+    both = (
+        "all stops are sent within {} ms, every status stays within its StaleMs "
+        "and every watchdog is fed in two thirds of its time"
+    )
     assert f"The smallest rate at which {both.format(500)}: 9600 bit/s." in said[0]
     assert f"There is no rate at which {both.format(150)}." in said[1]
 
@@ -58,6 +61,41 @@ def test_the_shipped_example_has_the_figures_of_its_own_line(tmp_path: Path) -> 
     assert len(bars) == 2 + 3 * 2
     assert ends[0] < ends[1] <= 970
     assert line(EXAMPLE, "--picture", str(picture)).exit_code == 0
+
+
+SLOW = ("--scan", "40ms", "--rate", "19200")
+
+
+@pytest.mark.parametrize(
+    ("drives", "said"),
+    [
+        (9, "would be {read} ms old, its StaleMs is 5000: it bars starts (Reason 55). What helps: fewer drives,"),
+        (
+            7,
+            "may be {worst_read} ms old when other drives fail, its StaleMs is 5000: that stops the motor. What helps:",
+        ),
+    ],
+)
+def test_a_line_that_is_too_slow_for_its_drives_says_so_with_both_figures(drives: int, said: str) -> None:
+    got = line(*["pf525"] * drives, *SLOW, columns=100)
+    told = json.loads(line(*["pf525"] * drives, *SLOW, "--json").stdout)
+    (own,) = [each for each in told["rates"] if each["rate"] == told["rate"]]
+    assert (got.exit_code, own["broken"], told["smallest_rate"]) == (1, ["status"], None)
+    text = " ".join(got.stdout.split())
+    names = ", ".join(f"PF525_{unit} ({unit})" for unit in range(1, drives + 1))
+    assert f"The status of {names} {said.format(**own['units'][0])}" in text
+    assert text.endswith("There is no rate at which every status stays within its StaleMs.")
+    assert text.count("What helps") == 1
+
+
+def test_what_feeds_a_watchdog_may_wait_for_two_thirds_of_its_time() -> None:
+    words = "chf", "chf", "chf", "--rate", "19200", "--watchdog"
+    fed = [json.loads(line(*words, time, "--json").stdout)["rates"][4]["units"][0] for time in ("2s", "4s")]
+    assert [each["watchdog_margin"] for each in fed] == [2 * ms // 3 - fed[0]["worst_feed"] for ms in (2000, 4000)]
+    bad, good = (line(*words, time, columns=100) for time in ("2s", "4s"))
+    assert (bad.exit_code, good.exit_code) == (1, 0)
+    said = f"may wait {fed[0]['worst_feed']} ms, more than two thirds of 2000 ms: it may trip. What helps:"
+    assert f"What feeds the watchdog of CHF_1 (1), CHF_2 (2), CHF_3 (3) {said}" in " ".join(bad.stdout.split())
 
 
 def test_families_whose_stop_would_move_the_other_are_named() -> None:

@@ -12,7 +12,7 @@ from tests.second.judge import VALUES, Asked, Judge
 from tests.second.kinds import drive as model
 from tests.second.line import RUNS, Bench
 from tests.second.observer import Figures, Pins
-from tests.second.station import IN_SEEN, library
+from tests.second.station import IN_SEEN, RIVALS, SIZES, library
 from tests.second.wire import Exchange
 
 from driveblocks.simulator.drive import SimulatedDrive
@@ -42,6 +42,8 @@ STOP_WITHIN_MS = {1: 7000, 3: 7000, 8: 14_000}
 """By drives on the line: 5 s for the motor, and twice what a round of reads takes."""
 STALE_MS = {1: 5000, 3: 5000, 8: 12_000}
 """The same; with 8 drives, 19.2 kbit/s and scans of 40 ms the page of Reason 29 asks for more than the usual value."""
+PANEL_US = 31_000_000
+"""For how long a panel is remembered: the line forgets its frames after half a minute."""
 CONTACT = 1 << (16 + 8 * IN_SEEN + 16)
 """The bit of `seen` that is HardStopOk."""
 FOLLOW_US = {1: 2_000_000, 3: 2_000_000, 8: 3_000_000}
@@ -89,6 +91,8 @@ class Second(Bench):
         """When it has spoken."""
         self.acknowledged_us = 0
         """When somebody has last acknowledged its frames."""
+        self.panel_ms, self.panel_us = 0, -(10**9)
+        """How often a panel reads what we read of the first drive, and when it did last; 0: there is none."""
         self.unsaid = False
         """Nobody hears the first drive acknowledge a run."""
         self.mute: int | None = None
@@ -162,6 +166,15 @@ class Second(Bench):
             self.block["Twin.Settings.KeepWord"] = self.pins[0]["KeepWord"]
         self.pins[0]["Shared"] = on
 
+    def other(self, *, on: bool, address: int = 1) -> None:
+        """A block of another make on the slot of the first drive, where the station has one."""
+        if len(self.types) != SIZES[1] or self.types[0] not in RIVALS:
+            return
+        pins = {"Address": address, "Enable": True, "MaximumHz": 50.0, "FullScaleHz": 50.0, "StopWithinMs": 7000}
+        for name, value in pins.items():
+            self.block[f"Other.{name}"] = value
+        self.block["UseOther"] = self.pins[0]["Shared"] = on
+
     def acknowledge(self) -> None:
         """A person acknowledges frames of others."""
         self.line(Acknowledge=True).run(100)
@@ -204,6 +217,11 @@ class Second(Bench):
         self.judge.asked.append(Asked(name, index, address, values, self.now, len(self.frames), may, *shown))
 
     hand = False
+
+    @property
+    def strangely(self) -> bool:
+        """Whether another master speaks, of whatever kind, or has just done."""
+        return self.strange or bool(self.panel_ms) or self.now - self.panel_us < PANEL_US
 
     @property
     def damages(self) -> bool:
@@ -281,8 +299,23 @@ class Second(Bench):
         mine = self.mailbox(len(begins)) == begins
         return mine and self.block["Port.TxCount"] != 0 and self.block["Port.TxNumber"] != self.block["Port.TxTaken"]
 
+    def _ask_as_panel(self) -> None:
+        """A panel repeats our last read of the first drive; it waits until the wire is free, as our port does."""
+        reads = (each.data for each in reversed(self.frames[-20:]) if each.unit == 1 and each.read)
+        data = next(reads, b"")
+        if not data or self.now - self.panel_us < 1000 * self.panel_ms:
+            return
+        self.panel_us = self.now
+        raw = ascii_frame(data) if self.ascii else rtu(data)
+        begins = max(self.now, self._free + 4 * CHAR_US)
+        self.transmit(raw, begins, None)
+        for at, text in self.models[0].receive(raw, begins + CHAR_US * len(raw)) if 1 not in self.deaf else []:
+            self.transmit(text, at, None)
+
     def _look(self) -> None:
         self.judge.scan()
+        if self.panel_ms:
+            self._ask_as_panel()
         if self.flicker:
             self.put(0, **{self.flicker: not self.pins[0].get(self.flicker, False)})
         if self.wavers:

@@ -189,7 +189,8 @@ class Claims:
         writes = body[1] in (5, 6, 16)
         self._kept(index, body)
         taken = self._taken(index) and now_us - claim.changed_us > ATTEND_US
-        if taken and not writes and index + 1 not in self.bench.deaf:
+        mixed = pins.get("Doubled") and bool(self.bench.pins[1:]) and self.bench.pins[1].get("Doubled")
+        if taken and not mixed and not writes and index + 1 not in self.bench.deaf:
             self._once(index, "barred", bad=True, seen=(body.hex(),))
         if writes:
             self._again(now_us, index, claim, body)
@@ -442,7 +443,7 @@ class Claims:
         left = bool(pins.get("Left")) and not all_
         owed = left or all_ or bool(pin or pins.get("Restart") or pins.get("MonitorOnly"))
         late = LATE_US if bench.models[index].o.late_per_1000 else 0
-        lossy = bench.faults.lost or bench.faults.unanswered or bench.strange or any_of(TAKEN, pins)
+        lossy = bench.faults.lost or bench.faults.unanswered or bench.strangely or any_of(TAKEN, pins)
         hears = bench.reachable(index) and not lossy and not bench.lineless and now >= bench.models[index].busy_us
         watched = pins.get("MonitorOnly") and self.judge.units[index].lied_us > 0  # it had acknowledged its stop before
         # then the slot has the other block's address, and this unit is not asked any more
@@ -546,7 +547,7 @@ class Claims:
             and len(bench.models) < 8
         )
         held = any_of(MOVES, pins) and pins["Enable"]
-        quiet = calm and not held and not pins.get("SupplyOff") and not bench.strange and not pins.get("StopAll")
+        quiet = calm and not held and not pins.get("SupplyOff") and not bench.strangely and not pins.get("StopAll")
         self._once(index, "stands", bad=bool(quiet and not bench.shows("StopConfirmed", index)))
 
     def _silent(self, index: int, claim: Claim) -> None:
@@ -673,7 +674,7 @@ class Claims:
         heard = [at for at in bench.strangers if at > now - COUNTS_US - ATTEND_US]
         least = len([at for at in heard if max(now - COUNTS_US + SEEN_US, began) < at < now - SEEN_US])
         calm = plain and bench.strangers and not bench.line_pins.get("Acknowledge") and not bench.lineless
-        calm = calm and now - max(self.judge.slow_us, self.doubled_us) > COUNTS_US + ATTEND_US
+        calm = calm and now - max(self.judge.slow_us, self.doubled_us, bench.panel_us) > COUNTS_US + ATTEND_US
         anew = max(*(each.unknown_us for each in self.judge.units), *(each.changed_us for each in self.claims))
         few = now - anew > CALM_US + ATTEND_US  # what was asked for before may be answered to nobody
         wrong = bool(calm) and (shown < least or (few and shown > len(heard)))

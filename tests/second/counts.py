@@ -158,7 +158,7 @@ class Counts:
         shown |= {"unanswered": self.unanswered, "refused": self.refused, "doubts": self.doubts}
         steady, faults = self._steady(), self.bench.faults
         late = any(one.o.late_per_1000 for one in self.bench.models)
-        if late or faults.lost or self.bench.damages or faults.twice or self.bench.strange or not steady:
+        if late or faults.lost or self.bench.damages or faults.twice or self.bench.strangely or not steady:
             self.unclean_us = self.bench.now
         grown = self._grown("steady", shown, well=steady)
         ended = sum(grown[name] for name in ENDS)

@@ -65,6 +65,8 @@ class Event:
     """Others may stop for it, too."""
     neighbour: bool = False
     """The second drive may stop for it."""
+    others: bool = False
+    """All but the first may stop for it."""
 
 
 def pin(name: str, value: bool, lasts: int, **more: bool) -> Event:

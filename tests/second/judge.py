@@ -415,7 +415,7 @@ class Judge:
             unit.heard_us = now
         unit.reachable = hears and bench.models[index].unit == pins["Address"]
         reached = unit.reachable and not any_of(ASTRAY, pins)
-        lossy = bench.deafened(index) or bench.strange or bench.lineless
+        lossy = bench.deafened(index) or bench.strangely or bench.lineless
         away = not reached or bool(lossy)  # a stop and its retries may be lost, and the connection with them
         if away:
             unit.away_us = now

@@ -356,6 +356,8 @@ class Run:
             driven -= {0}
         if any(each.neighbour for each in events):
             driven -= {1}
+        if any(each.others for each in events):
+            driven &= {0}
         self.judge.kept = driven
 
     def heal(self) -> None:

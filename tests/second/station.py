@@ -31,10 +31,12 @@ ALONE = (*NEWER, *VARIANTS)
 FAMILIES = (*MIXED, *ALONE)
 RTU_ONLY = ("PF4", "SN300G5", *ALONE)
 """Drives without MODBUS ASCII."""
+RIVALS = {"CHF": "JSCC", "GD200A": "PF4", "JSCC": "CHF", "PF4": "GD200A", "SN300G5": "CHF"}
+"""Another make that is wired to the slot of the first drive, on lines of three."""
 MADE_UP = ("CIA", "PRO", "PUL", "TWO", "LOW")
 """Drives that nobody builds, for what a map can say."""
 _WANTED = re.compile(
-    r"types/.*(?<!32)\.st|modbus/MB_Hex.*|line/(?!MB_ByteLine|MB_Line32).*|vfd/VFD_(?!ReasonText).*"
+    r"types/.*(?<!32)\.st|modbus/MB_Hex.*|line/(?!MB_ByteLine|MB_Line2|MB_Line32).*|vfd/VFD_(?!ReasonText).*"
     r"|(?!types|modbus|line|vfd)[^/]*/[^_]*_(?!\w+Text..\.|(Request|Reply|Command|Version|(Parameter|Number)Address)\.).*\.st"
 )
 
@@ -71,6 +73,9 @@ def station(types: Sequence[str]) -> str:
     declared += "".join(
         f"  {name}{i} : {block};\n" for i in ("", *aside) for name, block in (*BLOCKS.items(), ("Stores", "UDINT"))
     )
+    rival = RIVALS.get(types[0], "") if len(types) == SIZES[1] else ""
+    declared += f"  UseOther : BOOL;\n  Other : {rival}_Drive;\n" if rival else ""
+    called = "  IF UseOther THEN\n    Other(Slot := Slots[0]);\n  END_IF;\n" if rival else ""
     calls = "".join(f"  IF NOT Skip{i} THEN\n    Drive{i}(Slot := Slots[{i}]);\n  END_IF;\n" for i in drives)
     bits = [(f"Drive{i}.{pin}", 8 * i + place) for i in drives for place, pin in enumerate(PINS)]
     seen = "".join(_shown("Seen", pin, 16 + place) for pin, place in bits if place < 8 * IN_SEEN)
@@ -111,7 +116,7 @@ END_VAR
 {_parameters("", 0)}{calls}  IF UseTwin THEN
     Twin(Slot := Slots[0]);
   END_IF;
-{"".join(_parameters(str(i), i) for i in aside)}  IF UseMeter THEN
+{called}{"".join(_parameters(str(i), i) for i in aside)}  IF UseMeter THEN
     Meter(Slot := Slots[7], Words := MeterWords);
   END_IF;
   IF NOT SkipLine THEN
@@ -141,7 +146,7 @@ def _parameters(name: str, slot: int) -> str:
 
 def texts(stations: Sequence[Sequence[str]]) -> list[Source]:
     """The files that some stations need, and the stations."""
-    kinds = {kind for types in stations for kind in types}
+    kinds = {kind for types in stations for kind in (*types, RIVALS.get(types[0], types[0]))}
     made = [file for name in MADE_UP if name in kinds for file in blocks.drive(name.lower(), maps()[name], [])]
     found = [*sources(), *(Source(each.path, each.text) for each in made)]
     others = tuple(f"{name}_" for name in maps() if name not in kinds)

@@ -68,6 +68,8 @@ class Turns:
         if last is None or (now.data[1] > LAST_READ and not self._free(now)):
             return
         del self.lost[index]
+        if not self.slot(index, "Online"):  # nobody waits for one that counts as dead
+            return
         gap_ms = (now.end - last.end) // 1000 - self.bench.characters_ms(len(now.data) + 2)
         least = self.slot(index, "LongestMs")
         once(index, "drains", bad=gap_ms < least, seen=(gap_ms, "of", least, "ms"))

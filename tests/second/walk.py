@@ -7,6 +7,7 @@ import sys
 from dataclasses import replace
 from random import Random
 
+from tests.second.company import COMPANY
 from tests.second.events import AIMED, EVENTS, LONG
 from tests.second.matrix import Outcome, Run, cells
 from tests.second.pf4 import VARIANTS
@@ -35,7 +36,7 @@ class Walk(Run):
     def happen(self) -> None:
         """Events on each other's heels, with a start between."""
         super().happen()
-        b, names = self.bench, [each for each in EVENTS if each not in LONG]
+        b, names = self.bench, [*(each for each in EVENTS if each not in LONG), *COMPANY, *COMPANY]
         for _ in range(STEPS):
             name = self.chance.choice(names)
             self.events.append(name)
@@ -44,7 +45,7 @@ class Walk(Run):
             b.run(self.chance.choice([100, 1000, 4000]))
             self.start()
             b.run(self.chance.choice([40, 1000, 4000]))
-            event = EVENTS[name]
+            event = (EVENTS | COMPANY)[name]
             event.begins(b, self.chance)
             b.run(event.lasts)
             event.ends(b, self.chance)

@@ -306,7 +306,7 @@ class Wire:
         """Nothing is wrong but that drives do not answer, or that all has just begun."""
         bench, judge, now = self.bench, self.judge, self.bench.now
         faults = bench.faults
-        lossy = faults.lost or bench.damages or faults.twice or bench.strange or bench.flicker or bench.was_slow_port
+        lossy = faults.lost or bench.damages or faults.twice or bench.strangely or bench.flicker or bench.was_slow_port
         late = any(one.o.late_per_1000 for one in bench.models)
         astray = any(any_of(ASTRAY, each) or each.get("Address") != i + 1 for i, each in enumerate(bench.pins))
         if lossy or astray or bench.lineless or judge.asked or now - judge.slow_us < SETTLED_US:

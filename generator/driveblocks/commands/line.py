@@ -43,10 +43,11 @@ PICTURE = only_over(rb"<svg [^>]*>\s*<title>One round of polls: ", "line --pictu
 def run(picture: Path | None, json: bool, **words: Any) -> None:
     """Compute how often drives are read and how late stops can be.
 
-    It does so before anything is bought. The figures of stops are those of the line block itself, run for one scan at
-    each bit rate; nothing is sent. It names the families whose stop would move a drive of another one of the line. The
-    exit status is 0; 1 if --stop-within or a watchdog does not hold at the line's own rate, or if no block could see
-    such a mix-up; 2 for bad input.
+    It does so before anything is bought. The figures of stops and of how old a status gets are those of the line block
+    itself, run at each bit rate; nothing is sent. It names the families whose stop would move a drive of another one of
+    the line. The exit status is 0; 1 if at the line's own rate --stop-within does not hold, a status can get older than
+    its StaleMs, or what feeds a watchdog can wait for more than two thirds of its time, or if no block could see such
+    a mix-up; 2 for bad input.
 
     Example: driveblocks line chf@1 chf@2 jscc@3 --rate 19200 --stop-within 500ms --picture round.svg
     """

@@ -205,7 +205,17 @@ def _read(drive: Drive) -> dict[str, str]:
         "one_is_oldest": _any(f"StatusAgeMs = Age{number}" for number in fast),
         "status_age": _every(f"Reads.StatusAgeMs >= Reads.Age{number}" for number in fast)
         + f" AND ({_any(f'Reads.StatusAgeMs = Reads.Age{number}' for number in fast)})",
-        "proves": _every(f"Since{number}" for number in _proof_reads(drive)),
+        "proves": _every(f"Sure{number}" for number in _proof_reads(drive)),
+        "sure": _every(
+            f"(Sure{number} = (Since{number} AND (Since{number}Ms > LongestMs)))" for number in range(1, len(reads) + 1)
+        ),
+        "sure_since": _every(
+            f"(NOT Since{number} OR (Since{number}Ms > LongestMs))" for number in range(1, len(reads) + 1)
+        ),
+        "believed_since": _every(
+            f"(NOT Since{number} OR Was.Since{number} AND NOT (Anew OR Forget OR Reread) OR {BELIEVED})"
+            for number in range(1, len(reads) + 1)
+        ),
         "speed": _any(f"({_comes(number, reads[number - 1])}) AND {BELIEVED}" for number in _speed_reads(drive)),
         "ages": _every(
             f"(Age{number} = MB_Plus(Number := Was.Age{number}, More := PassedMs)) "
@@ -239,7 +249,7 @@ def _settings(drive: Drive) -> str:
     brings = _settings_reads(drive)
     if not brings:
         return "SettingsRead"
-    come = _every(f"Since{number}" for number in brings)
+    come = _every(f"Sure{number}" for number in brings)
     return (
         f"(SettingsRead = (Was.SettingsRead AND NOT Anew AND NOT Verify OR {come})) "
         f"AND (NOT (Anew OR Verify) OR {_every(f'NOT Since{n} OR Fresh AND (Entry = {n})' for n in brings)})"
@@ -270,7 +280,7 @@ def _shown(drive: Drive) -> dict[str, str]:
     return {
         "ready_shown": f"(CommOk AND ({_any(ready)}))" if ready else "TRUE",
         "verified": _every(word for _, word in verify),
-        "settings_since": _every(f"Reads.Since{number}" for number in _settings_reads(drive)),
+        "settings_since": _every(f"Reads.Sure{number}" for number in _settings_reads(drive)),
         "settled_read": "(NOT Settled.Proved OR Reads.SettingsRead)" if _settings_reads(drive) else "TRUE",
         "settings_said": _every(f"({decoded}) = ({word})" for decoded, word in verify),
         "said": _every(said),

@@ -107,9 +107,10 @@ def models(sources: Sequence[Source], subjects: Sequence[Subject]) -> list[Model
         units.append(parse(text, f"the rules of {subject.block}"))
     checked = check(units)
     made = [_model(subject, _pou(checked, subject.block), checked) for subject in subjects]
-    proved = {each.pou.unit.path for each in made if each.subject.exact and each.pou.unit is not None}
+    own = [each for each in made if each.subject.exact or (isinstance(each.pou, Function) and not each.subject.given)]
+    proved = {each.pou.unit.path for each in own if each.pou.unit is not None}
     for each in made:
-        if not each.subject.exact:
+        if each not in own:
             each.obligations[:] = [one for one in each.obligations if one.path not in proved]
     return made
 
@@ -130,14 +131,14 @@ def _model(subject: Subject, pou: Pou, checked: Checked) -> Model:
             before[path] = inputs[path] = z3.Const(BEFORE + path, sort(leaf.type))
             if each.kind is VarKind.INPUT:
                 inputs[path] = z3.Const(path, sort(leaf.type))
-    after, obligations = run(pou, inputs, exact=subject.exact)
+    after, obligations = run(pou, inputs, exact=subject.exact, loose=subject.loose)
     if isinstance(pou, Function):
         before["RESULT"], after["RESULT"] = before[pou.name.upper()], after[pou.name.upper()]
     return Model(subject, pou, checked, before, inputs, after, obligations)
 
 
-def run(pou: Pou, inputs: Store, *, exact: bool = False) -> tuple[Store, list[Obligation]]:
+def run(pou: Pou, inputs: Store, *, exact: bool = False, loose: Sequence[str] = ()) -> tuple[Store, list[Obligation]]:
     """The memory after a call, and what has to hold in it for all compilers to agree."""
-    terms = Terms(dict(inputs), exact=exact)
+    terms = Terms(dict(inputs), exact=exact, loose=loose)
     terms.block(pou, "", {name: name for name in in_outs(pou)})
     return terms.store, terms.obligations

@@ -119,6 +119,8 @@ def _kept(op: str, left: Term, right: Term, kind: Elementary) -> Term:
         return folded(z3.UGE(folded(left + right), left))
     if not kind.signed and op == "-":
         return folded(z3.UGE(left, right))
+    if not kind.signed and z3.is_bv_value(right) and right.as_long():
+        return folded(z3.ULE(left, kind.high // right.as_long()))
     more = kind.width if op == "*" else 1
     extend = z3.SignExt if kind.signed else z3.ZeroExt
     exact = folded(_plain(op, folded(extend(more, left)), folded(extend(more, right))))
@@ -133,7 +135,10 @@ def _divided(op: str, left: Term, right: Term, kind: Elementary, demand: Demand)
         return left / right if op == "/" else z3.SRem(left, right)
     if op == "MOD" and z3.is_bv_value(right) and right.as_long() > kind.high // 2:
         return choice(folded(z3.ULT(left, right)), left, folded(left - right))
-    return z3.UDiv(left, right) if op == "/" else z3.URem(left, right)
+    if op == "/":
+        return z3.UDiv(left, right)
+    rest = z3.URem(left, right)  # that it is below the divisor the solver need not find out
+    return choice(folded(z3.ULT(rest, right)), rest, z3.BitVecVal(0, kind.width))
 
 
 def negated(term: Term, kind: Elementary, demand: Demand) -> Term:

@@ -21,11 +21,8 @@ from structured_text.engines.engine import Source as Text
 
 GENERIC = "every drive"
 """How the blocks are called that every drive shares."""
-LARGE = ("Line8", "Line32")
-"""What the names of blocks end with that run all slots of a line in loops; of the first a part is proved."""
-NEXT = "MB_Line8_Next"
-"""How that part is called, which chooses the drive to be asked next: from and up to these words of its body."""
-FROM, TO = "  (* who is next:", "  (* the request *)"
+LARGE = tuple(f"Line{slots}" for slots in library.LINE_SIZES)
+"""What the names of blocks end with that only hand from one block to the next, slot by slot; no rule is about them."""
 
 
 @dataclass(frozen=True)
@@ -78,20 +75,11 @@ def run(sources: Sequence[Source]) -> Iterator[Proved]:
 def texts(sources: Sequence[Source]) -> Iterator[tuple[str, list[Text]]]:
     """The blocks that every drive shares, then each drive with the shared blocks before its own."""
     spoken = languages(["en", "zh"], "utf-8")
-    every = list(library.generic(spoken))
-    generic = [Text(each.path, each.text) for each in every if not each.name.endswith(LARGE)]
-    line = next(each for each in every if each.name.endswith(LARGE[0]))
-    yield GENERIC, [*generic, Text(f"{NEXT}.st", _next(line.text))]
+    generic = [Text(each.path, each.text) for each in library.generic(spoken) if not each.name.endswith(LARGE)]
+    yield GENERIC, generic
     for source in sources:
         own = library.drive(source.path.stem, source.drive, spoken)
         yield source.path.stem, [*generic, *(Text(each.path, each.text) for each in own)]
-
-
-def _next(line: str) -> str:
-    """What chooses the drive to be asked next, as a block of its own with all variables of the line."""
-    head = line[: line.rindex("END_VAR")]
-    body = line[line.index(FROM) : line.index(TO)]
-    return f"{head.replace('FUNCTION_BLOCK MB_Line8', f'FUNCTION_BLOCK {NEXT}')}END_VAR\n{body}END_FUNCTION_BLOCK\n"
 
 
 def proved(sources: Sequence[Text], subjects: Mapping[str, Sequence[Subject]]) -> Iterator[Proved]:

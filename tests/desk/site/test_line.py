@@ -106,14 +106,19 @@ def test_figures_bound_what_simulated_drives_see(tmp_path: Path, families: list[
     plant.controller.instance["Go"] = True
     plant.run(9000)
     plant.sent.clear()
-    ages = [f"M{at}.{name}" for at in range(len(families)) for name in ("Diagnosis.StatusAgeMs", "Control.Run.AloneMs")]
-    most = plant.run(3000, *ages)
+    aging = "Diagnosis.StatusAgeMs", "Diagnosis.MeasuresAgeMs", "Control.Run.AloneMs"
+    most = plant.run(3000, *(f"M{at}.{name}" for at in range(len(families)) for name in aging))
     for at, each in enumerate(made.ages):
         assert plant.controller.instance[f"M{at}.Running"] is True
-        assert max(gaps(plant, at, families[at])) <= each.writing
-        assert most[f"M{at}.Diagnosis.StatusAgeMs"] <= each.oldest
-        # a reference is sent three times in the time of the watchdog, and the line answers it within two rounds
-        assert 2000 // 3 - 20 <= most[f"M{at}.Control.Run.AloneMs"] <= (each.feed or 0)
+        # as the line has it, whose drives begin to reply up to a scan sooner than it may see
+        found = [number(f"Bus.Slots[{at}].{name}") for name in ("ReadMs", "WorstReadMs", "WorstFeedMs", "StaleMs")]
+        wanted = [each.promised.read, each.promised.worst, each.promised.feed, each.promised.stale]
+        assert all(0.75 * high <= value <= high for value, high in zip(found, wanted, strict=True)), (found, wanted)
+        assert max(gaps(plant, at, families[at])) <= each.promised.read
+        assert 0.5 * each.promised.read <= most[f"M{at}.Diagnosis.StatusAgeMs"] <= each.promised.read
+        assert most[f"M{at}.Diagnosis.MeasuresAgeMs"] <= (each.rest or 0)
+        # a reference is sent three times in the time of the watchdog
+        assert 2000 // 3 - 20 <= most[f"M{at}.Control.Run.AloneMs"] <= 2000 // 3 + 20 + (each.feed or 0)
 
 
 def rows() -> Iterator[tuple[str, int, bool, list[int]]]:
@@ -144,7 +149,7 @@ def test_ascii_takes_twice_the_characters_and_devices_take_their_turn() -> None:
     assert rtu[1:] == [8 + 5 + 2 * 2, 8 + 5 + 2 * 16]
     assert spoken == [2 * each + 2 for each in rtu]
     assert both[1].worst > both[0].worst
-    assert [each.oldest is not None and each.rest is None for each in both[0].ages] == [False, True, True]
+    assert [each.promised.read > 0 or each.rest is not None for each in both[0].ages] == [True, False, False]
 
 
 def test_nine_units_take_the_longer_line() -> None:
@@ -167,7 +172,15 @@ def test_what_breaks_is_named_and_a_port_that_is_late_counts(tmp_path: Path) -> 
     assert figures(made, 19200).broken == ["stops", "watchdog"]
     assert figures(replace(made, within=None), 19200).broken == ["watchdog"]
     assert figures(replace(made, port_late=50), 19200).alone == figures(made, 19200).alone + 3 * 50
-    assert figures(replace(made, units=()), 19200).broken == ["stops"]
+
+
+@pytest.mark.parametrize(("stale", "bars"), [(700, True), (900, False), (1100, None)])
+def test_a_status_that_can_get_too_old_is_found(tmp_path: Path, stale: int, bars: bool | None) -> None:
+    text = program(["CHF"] * 3, rate=19200).replace("S.WatchdogMs := 0", f"S.StaleMs := {stale}")
+    made = figures(of_program(tmp_path, text), 19200)
+    assert [each.promised.stale for each in made.ages] == [stale] * 3
+    assert made.broken == ([] if bars is None else ["status"])
+    assert {each.promised.read > stale for each in made.slow} == ({bars} - {None})
 
 
 def test_a_program_with_a_mailbox_and_a_meter_says_what_its_line_is(tmp_path: Path) -> None:

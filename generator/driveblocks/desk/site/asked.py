@@ -14,7 +14,7 @@ from driveblocks.desk.site.line import CHARACTER_BITS, LEARNED_AFTER, PINS, SLOT
 from driveblocks.desk.words import time
 from driveblocks.maps import catalog
 from driveblocks.maps.collection import Source
-from driveblocks.maps.plan import reply_delay
+from driveblocks.maps.plan import reply_delay, writes_by
 from driveblocks.maps.polls import Poll, polls
 from driveblocks.maps.problem import Refused
 from structured_text import files
@@ -158,11 +158,12 @@ def _line(words: Words, seen: Controller, loaded: source.Loaded, times: Mapping[
     reply = times["reply"] or max([USUAL_REPLY_MS, *delays])
     for at in range(size):
         block[f"{bus}.Slots[{at}].Replies"] = LEARNED_AFTER
-        block[f"{bus}.Slots[{at}].LongestReplyMs"] = reply
+        block[f"{bus}.Slots[{at}].LongestReplyMs"] = reply + scan  # the call that sees it may come so much later
     seen.scan(2000 * scan)
     late, form = times["port_late"], (words.form or "").upper()
     return Line(
-        library=loaded.library, size=size, slots=_slots(seen, size), unlearned=unlearned, units=_units(seen, size),
+        library=loaded.library, size=size, slots=_slots(seen, size) | _stops(seen, size), unlearned=unlearned,
+        units=_units(seen, size),
         pins={name: number(block, f"{bus}.{name}") for name in PINS}, within=times["within"],
         rate=words.rate or number(block, f"{bus}.BitRate") or USUAL["BitRate"],
         bits=CHARACTER_BITS.get(form) or number(block, f"{bus}.CharacterBits") or USUAL["CharacterBits"],
@@ -185,6 +186,18 @@ def _size(block: EmbeddedInstance, bus: str) -> int:
 def _slots(seen: Controller, size: int) -> dict[str, int]:
     paths = [f"Slots[{at}].{name}" for at in range(size) for name in SLOT]
     return {path: number(seen.instance, f"{seen.wiring.line}.{path}") for path in paths}
+
+
+def _stops(seen: Controller, size: int) -> dict[str, int]:
+    """How the drives are stopped, also those whose block holds its stop back until it has read what its drive is."""
+    drives = {seen.unit(each): seen.drive(each) for each in seen.wiring.drives}
+    found = {}
+    for at in range(size):
+        drive = drives.get(number(seen.instance, f"{seen.wiring.line}.Slots[{at}].UnitAddress"))
+        if drive:
+            stop = next(one for one in drive.operation.commands if one.does == "stop")
+            found[f"Slots[{at}].Ask[0].FunctionCode"] = writes_by(drive, stop.register)
+    return found
 
 
 def _units(seen: Controller, size: int) -> tuple[Unit, ...]:

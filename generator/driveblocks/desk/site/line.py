@@ -1,6 +1,6 @@
-"""How fast a line is and how late its stops are: stops as its block computes them, reads as docs/line.md does."""
+"""How fast a line is, how old a status and how late a stop can be: by its block, or by the formula of docs/line.md."""
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from math import ceil
 
@@ -12,7 +12,7 @@ RATES = (1200, 2400, 4800, 9600, 19200, 38400, 57600, 115200)
 """Where no manual on the line names its rates."""
 SLOT = (
     "UnitAddress", "SilenceMs", "OtherQuantity", "TurnRoundMs", "LongestMs", "PollEveryMs", "Ask[0].FunctionCode",
-    "Ask[0].Quantity", "Ask[3].Quantity",
+    "Ask[0].Quantity", "Ask[3].Quantity", "StatusPolls", "StaleMs", "FeedMs", "Replies", "LongestReplyMs",
 )  # fmt: skip
 """What the line computes its figures from, of each slot."""
 PINS = ("CommandRetries", "OfflineMs")
@@ -20,8 +20,12 @@ PINS = ("CommandRetries", "OfflineMs")
 LEARNED_AFTER = 20
 """Replies after which a block knows its drive's turn-round."""
 CHARACTER_BITS = {"8N1": 10, "8E1": 11, "8O1": 11, "8N2": 11, "7E1": 10, "7O1": 10, "7N2": 10}
-FEEDS = 3
-"""A drive block feeds its drive's watchdog this often within its time; `Reason` 19 shows that half has passed."""
+BROKEN = {
+    "stops": "all stops are sent within {} ms",
+    "status": "every status stays within its StaleMs",
+    "watchdog": "every watchdog is fed in two thirds of its time",
+}
+"""What may not hold at a rate -> what is asked for."""
 
 
 @dataclass(frozen=True)
@@ -103,25 +107,42 @@ class Spent:
 
 
 @dataclass(frozen=True)
+class Promised:
+    """What the line block computes for one slot; times in ms, 0: it has none."""
+
+    read: int
+    """`ReadMs`: age of its status at most, while all drives answer."""
+    worst: int
+    """`WorstReadMs`: the same whatever other drives do."""
+    feed: int
+    """`WorstFeedMs`: what feeds a watchdog waits for so long at most."""
+    stale: int
+    """`StaleMs`: an older status ends a run."""
+
+
+@dataclass(frozen=True)
 class Aged:
     """How often a unit is read; times in ms, all at most."""
 
     unit: Unit
     every: int
     """Between two reads of its status, where nobody writes."""
-    writing: int
-    """The same while every drive is written to as often as it is read."""
-    oldest: int
-    """Age of its status, while written to."""
     rest: int | None
     """Age of its other values, while written to; None where it has none."""
-    feed: int | None
-    """Between two frames that feed its watchdog; None where none is set."""
+    promised: Promised
+
+    @property
+    def feed(self) -> int | None:
+        """How long what feeds its watchdog may wait: a frame of its own, or its reads; None where none is set."""
+        drive, own = self.unit.drive, self.promised
+        if not (self.unit.watchdog_ms and drive):
+            return None
+        return own.worst if drive.watchdog and drive.watchdog.feeds in ("read", "any") else own.feed
 
     @property
     def margin(self) -> int | None:
-        """What is left of half of its watchdog's time."""
-        return None if self.feed is None else self.unit.watchdog_ms // 2 - self.feed
+        """What is left of two thirds of its watchdog's time."""
+        return None if self.feed is None else 2 * self.unit.watchdog_ms // 3 - self.feed
 
 
 @dataclass(frozen=True)
@@ -138,6 +159,8 @@ class Figures:
     unlearned: int
     """The worst stop before any reply."""
     cut: int
+    promised: tuple[Promised, ...]
+    """By unit."""
 
     @property
     def round(self) -> int:
@@ -151,38 +174,41 @@ class Figures:
 
     @property
     def ages(self) -> tuple[Aged, ...]:
-        return tuple(self._aged(each) for each in self.spent)
+        return tuple(self._aged(*each) for each in zip(self.spent, self.promised, strict=True))
+
+    @property
+    def slow(self) -> tuple[Aged, ...]:
+        """Drives whose status can get older than their StaleMs; if it does while all drives answer, no start passes."""
+        return tuple(each for each in self.ages if max(each.promised.read, each.promised.worst) > each.promised.stale)
+
+    @property
+    def starved(self) -> tuple[Aged, ...]:
+        """Drives whose watchdog may trip."""
+        return tuple(each for each in self.ages if each.margin is not None and each.margin < 0)
 
     @property
     def broken(self) -> list[str]:
-        """What does not hold: that all stops are sent in time, that every watchdog is fed in half of its time."""
+        """Keys of `BROKEN`: what does not hold."""
         late = self.line.within is not None and self.worst > self.line.within
-        starved = any(each.margin is not None and each.margin < 0 for each in self.ages)
-        return ["stops"] * late + ["watchdog"] * starved
+        return ["stops"] * late + ["status"] * bool(self.slow) + ["watchdog"] * bool(self.starved)
 
-    def _aged(self, spent: Spent) -> Aged:
+    def _aged(self, spent: Spent, promised: Promised) -> Aged:
         unit, own = spent.unit, spent.scans * self.line.scan
-        every = unit.turns * self.round + unit.every_ms
-        writing = 2 * unit.turns * self.round + unit.every_ms
         rest = 2 * unit.rest_turns * self.round + own if unit.rest_turns else None
-        feed = 2 * self.round
-        if not (unit.drive and unit.drive.watchdog and unit.drive.watchdog.feeds in ("read", "any")):
-            feed += unit.watchdog_ms // FEEDS + 1
-        return Aged(unit, every, writing, writing + own, rest, feed if unit.watchdog_ms else None)
+        return Aged(unit, unit.turns * self.round + unit.every_ms, rest, promised)
 
 
 def figures(line: Line, rate: int) -> Figures:
-    """The figures at a bit rate; those of stops and silence come from the block itself, in a restart."""
-    found, unlearned = (_promised(line, rate, slots) for slots in (line.slots, line.unlearned))
-    keeps = bool(found["LineKeeps"])
+    """The figures at a bit rate; those of stops, silence and ages come from the block itself, after a restart."""
+    block, unlearned = (_block(line, rate, slots) for slots in (line.slots, line.unlearned))
+    keeps = bool(number(block, "Promise.LineKeeps"))
     # 3.5 characters, 1.75 ms above 19,200 bit/s, or the most that a drive asks for
     own = max(value for path, value in line.slots.items() if path.endswith(".SilenceMs"))
     silence = max(1.75 if rate > 19200 else 3500 * line.bits / rate, own)
     spent = tuple(_spent(line, each, rate, silence, keeps) for each in line.units)
-    return Figures(
-        line, rate, spent, silence, keeps, found["StopAloneMs"], found["WorstStopMs"], unlearned["WorstStopMs"],
-        found["CutToContactMs"],
-    )  # fmt: skip
+    stops = number(block, "StopAloneMs"), number(block, "WorstStopMs"), number(unlearned, "WorstStopMs")
+    cut = number(block, "CutToContactMs")
+    return Figures(line, rate, spent, silence, keeps, *stops, cut, tuple(_promised(line, block)))
 
 
 def number(block: EmbeddedInstance, path: str) -> int:
@@ -191,15 +217,28 @@ def number(block: EmbeddedInstance, path: str) -> int:
     return value if isinstance(value, int) else 0
 
 
-def _promised(line: Line, rate: int, slots: Mapping[str, int]) -> dict[str, int]:
+def _block(line: Line, rate: int, slots: Mapping[str, int]) -> EmbeddedInstance:
+    """The line block after its first call, with these slots."""
     block = line.library.instance(f"MB_Line{line.size}")
     given = {"BitRate": rate, "CharacterBits": line.bits, "MaxScanMs": line.max_scan, "Port.LateMs": line.port_late}
     for path, value in {**slots, **line.pins, **given, "ElapsedMs": line.scan}.items():
         block[path] = value
     block["Ascii"], block["Port.KeepsSilence"] = line.ascii, line.keeps
     block.scan(0)
-    names = "WorstStopMs", "StopAloneMs", "CutToContactMs", "Promise.LineKeeps"
-    return {name.rpartition(".")[2]: number(block, name) for name in names}
+    return block
+
+
+def _promised(line: Line, block: EmbeddedInstance) -> Iterator[Promised]:
+    """What a block promises of each unit; a restart forgets the replies, and one round of slots goes by old sums."""
+    block["ElapsedMs"] = 0
+    for path, value in line.slots.items():
+        block[path] = value
+    for _ in range(line.size + 1):
+        block.scan(0)
+    names = "ReadMs", "WorstReadMs", "WorstFeedMs", "StaleMs"
+    for at in range(line.size):
+        if number(block, f"Slots[{at}].UnitAddress"):
+            yield Promised(*(number(block, f"Slots[{at}].{name}") for name in names))
 
 
 def _spent(line: Line, unit: Unit, rate: int, silence: float, line_keeps: bool) -> Spent:

@@ -6,7 +6,7 @@ from typing import Any
 from rich.console import RenderableType
 from rich.text import Text
 
-from driveblocks.desk.site.line import Figures, Line
+from driveblocks.desk.site.line import BROKEN, Aged, Figures, Line, Promised
 from driveblocks.maps.conduct import reply_delay
 from driveblocks.maps.rivals import Pair, pairs, warning
 from driveblocks.show.layout import facts, table
@@ -21,6 +21,7 @@ def tables(tried: Sequence[Figures]) -> Iterator[RenderableType]:
     yield Text()
     yield _rates(tried)
     yield Text()
+    yield from _warned(own)
     yield from map(warning, mistaken(own.line))
     yield verdict(tried)
 
@@ -47,13 +48,36 @@ def mistaken(line: Line) -> list[Pair]:
 
 def verdict(tried: Sequence[Figures]) -> str:
     line, found = tried[0].line, next((each.rate for each in tried if not each.broken), None)
-    asked = [f"all stops are sent within {line.within} ms"] if line.within else []
-    if any(each.watchdog_ms for each in line.units):
-        asked.append("every watchdog is fed in half of its time")
-    if not asked:
-        return "--stop-within and --watchdog find the smallest rate that holds."
-    what = " and ".join(asked)
+    asked = {"stops": line.within is not None, "status": True, "watchdog": any(each.watchdog_ms for each in line.units)}
+    *most, last = (says.format(line.within) for key, says in BROKEN.items() if asked[key])
+    what = f"{', '.join(most)} and {last}" if most else last
     return f"The smallest rate at which {what}: {found} bit/s." if found else f"There is no rate at which {what}."
+
+
+def _warned(own: Figures) -> Iterator[str]:
+    """What does not hold at the line's own rate, and what to do about it; drives of which the same is so together."""
+    found: dict[tuple[str, str, str], list[str]] = {}
+    for each in own.slow:
+        found.setdefault(_aging(each.promised), []).append(_name(each))
+    for each in own.starved:
+        said = f"may wait {each.feed} ms, more than two thirds of {each.unit.watchdog_ms} ms: it may trip"
+        found.setdefault(("What feeds the watchdog", said, "a longer watchdog"), []).append(_name(each))
+    for (what, said, also), names in found.items():
+        helps = f"fewer drives, a higher bit rate, a shorter scan, a shorter TurnRoundMs, {also}"
+        yield f"{what} of {', '.join(names)} {said}. What helps: {helps}."
+
+
+def _aging(one: Promised) -> tuple[str, str, str]:
+    """Of a status that gets too old: what it is, what that does, and what else helps."""
+    if one.read > one.stale:
+        said = f"would be {one.read} ms old, its StaleMs is {one.stale}: it bars starts (Reason 55)"
+        return "The status", said, "a longer StaleMs"
+    said = f"may be {one.worst} ms old when other drives fail, its StaleMs is {one.stale}: that stops the motor"
+    return "The status", said, "SupplyOff where supplies fail together, a longer StaleMs"
+
+
+def _name(each: Aged) -> str:
+    return f"{each.unit.name} ({each.unit.unit})"
 
 
 def _said(own: Figures) -> Iterator[tuple[str, object]]:
@@ -75,11 +99,12 @@ def _said(own: Figures) -> Iterator[tuple[str, object]]:
 
 def _units(own: Figures) -> RenderableType:
     watched = any(each.feed for each in own.ages)
-    numbers = "unit", "read every", "with writes", "oldest", "others", *(["watchdog"] if watched else [])
-    made = table("unit", "ms", *numbers[1:], numbers=numbers, wide=("ms",))
+    heads = "read every", "ReadMs", "WorstReadMs", "StaleMs", "others", *(["feed"] if watched else [])
+    made = table("unit", "ms", *heads, numbers=["unit", *heads], wide=("ms",))
     for each in own.ages:
-        times = each.every, each.writing, each.oldest, each.rest, *([each.margin] if watched else [])
-        made.add_row(str(each.unit.unit), each.unit.name, *("-" if ms is None else str(ms) for ms in times))
+        one = each.promised
+        times = each.every, one.read, one.worst, one.stale, each.rest, *([each.feed] if watched else [])
+        made.add_row(str(each.unit.unit), each.unit.name, *(str(ms) if ms else "-" for ms in times))
     return made
 
 
@@ -102,8 +127,9 @@ def _at(each: Figures) -> dict[str, Any]:
             {
                 "unit": one.unit.unit, "name": one.unit.name,
                 "drive": one.unit.drive.prefix if one.unit.drive else None,
-                "status_every": one.every, "status_every_with_writes": one.writing, "oldest_status": one.oldest,
-                "oldest_other": one.rest, "watchdog": one.unit.watchdog_ms or None, "watchdog_margin": one.margin,
+                "status_every": one.every, "read": one.promised.read or None, "worst_read": one.promised.worst or None,
+                "stale": one.promised.stale or None, "oldest_other": one.rest,
+                "watchdog": one.unit.watchdog_ms or None, "worst_feed": one.feed, "watchdog_margin": one.margin,
             }
             for one in each.ages
         ],
