@@ -79,7 +79,7 @@ def test_the_reply_to_a_write_repeats_coil_and_value(engine: Engine, wrong: byte
     bench = coils(engine).ready()
     bench.drives[1].answer = lambda request: request[:2] + wrong if request[1] == 5 else None
     bench.ask(1, COMMAND, 5, 0x0001, word=0xFF00)
-    bench.run(400)
+    bench.run(500)
     assert bench.answer(1, COMMAND) in ("SILENCE", "CHECKSUM")
 
 

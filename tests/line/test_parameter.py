@@ -348,7 +348,7 @@ def test_an_attempt_that_is_withdrawn_from_the_port_gives_no_more_of_them() -> N
     while not scene.written():
         scene.scan()
     scene.port_takes = False
-    while (scene["Line.Phase"], scene["Line.Box"], scene.slot(0, "Answer[2].Tries")) != (1, PARAMETER, 2):
+    while (scene["Line.Exchange.Phase"], scene["Line.Sending.Box"], scene.slot(0, "Answer[2].Tries")) != (1, PARAMETER, 2):
         scene.scan()
     scene.stop(0)
     scene.port_takes = True
