@@ -3,6 +3,7 @@
 `python -m tests.line.cline random SEED 1 KIND` runs one random line again; `run KEY=VALUE ...` any line.
 """
 
+import re
 import subprocess
 import sys
 import tempfile
@@ -62,8 +63,9 @@ def texts(slots: int = 8) -> list[str]:
     """The files of the library that a line of this many slots needs."""
     names = (BLOCKS / "order.txt").read_text(encoding="utf-8").split()
     own = [name for name in names if name.startswith(("types/", "modbus/MB_Hex", "line/")) and "ByteLine" not in name]
-    wanted = [name for name in own if not name.endswith({8: "32.st", 32: "s8.st"}[slots])]
-    return [(BLOCKS / name).read_text(encoding="utf-8") for name in wanted if name != f"line/MB_Line{40 - slots}.st"]
+    sizes = {name: re.search(r"(?:Slots|Tracks|Line)(\d+)\.st$", name) for name in own}
+    wanted = [name for name, size in sizes.items() if size is None or int(size[1]) == slots]
+    return [(BLOCKS / name).read_text(encoding="utf-8") for name in wanted]
 
 
 def build(

@@ -78,6 +78,20 @@ def test_until_the_echo_is_known_only_reads_and_stops_are_sent_and_no_stop_is_be
     assert bench.answer(0, STOP) == ""
 
 
+def test_the_same_read_of_another_master_is_no_echo() -> None:
+    """The stop after it was not believed, and overdue after its retries."""
+    bench = Bench(Config(drives=1)).ready()
+    before = len(bench.sent)
+    while not any(each.read for each in bench.sent[before:]):
+        bench.scan()
+    bench.foreign(bytes([bench.sent[-1].unit]) + bench.sent[-1].pdu[1:])
+    bench.run(20)
+    assert bench["ForeignFrames"] == 1
+    bench.command(0)
+    bench.run(300)
+    assert (bench["Echo"], bench.answer(0, COMMAND)) == (1, "OK")
+
+
 def test_a_read_whose_reply_can_equal_its_request_decides_nothing() -> None:
     bench = Bench(Config(words=1))
     for slot in range(3):

@@ -220,7 +220,9 @@ class Bench:
     def _own(self, slot: int, box: int) -> None:
         """Write whose a request is, as its drive block does."""
         path = f"Slots[{slot}].Ask[{box}]."
-        self.block[path + "Unit"], self.block[path + "FamilyCode"] = (self.slot(slot, n) for n in ("UnitAddress", "FamilyCode"))
+        self.block[path + "Unit"], self.block[path + "FamilyCode"] = (
+            self.slot(slot, n) for n in ("UnitAddress", "FamilyCode")
+        )
         if box == STOP:
             self.block[path + "Check"] = check(*(self[path + name] for name in CHECKED), self[path + "Words[0]"])
 

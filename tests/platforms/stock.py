@@ -1,6 +1,7 @@
 """The shipped library as writers get it, and its canonical texts as they are checked in."""
 
 import functools
+import re
 from collections.abc import Iterable
 from dataclasses import dataclass
 
@@ -48,6 +49,7 @@ class Canon:
 
 
 EXTRAS = {
+    "Line2": {"MB_Line2", "MB_ByteLine2", "MB_Slots2", "MB_Tracks2"},
     "Line32": {"MB_Line32", "MB_ByteLine32", "MB_Slots32", "MB_Tracks32"},
     "Parameters": {"VFD_ReadParameter", "VFD_WriteParameter", "VFD_Store"},
     "Meter": {"MB_Device", "MB_Float"},
@@ -63,8 +65,8 @@ def extra(folder: str, name: str) -> str:
     """The extra that a block is of, as the pages say it; empty: a first motor needs it, or it is a text in English."""
     if name.endswith(("Zh", "ZhW")):
         return "Chinese"
-    if name.endswith("Line32"):
-        return "Line32"
+    if (size := re.search(r"Line(2|32)$", name)) is not None:
+        return size[0]
     if name.endswith(("_Request", "_Reply")) and folder != "types":
         return "Frames"
     found = next((each for each, names in EXTRAS.items() if name in names), "")

@@ -53,7 +53,7 @@ def test_the_files_are_the_canonical_texts_each_once_and_nothing_else() -> None:
         assert [first, *(text.removeprefix("\n") for text in rest)] == wanted, name
         types, others = (sum(text.count(f"\n{word}") for text in wanted) for word in ("TYPE\n", "FUNCTION"))
         assert f"{types} types, {others} functions and blocks" in comment
-    port = {"shared/LX_Port", "shared/LX_Port_Line32"}
+    port = {"shared/LX_Port", "shared/LX_Port_Line2", "shared/LX_Port_Line32"}
     assert {path for path in written() if not path.startswith("yours/")} == {
         *(f"{name}.st" for name in {*meant, *port}), "README.md", "Port.md"
     }  # fmt: skip
@@ -69,7 +69,7 @@ def test_a_first_motor_needs_no_extra(family: str) -> None:
     builds([*library(family), programs(family, "MotorBytes")])
 
 
-NEEDS = {"Line32": (), "Parameters": (), "Meter": ("Parameters",), "Frames": (), "Chinese": ()}
+NEEDS = {"Line2": (), "Line32": (), "Parameters": (), "Meter": ("Parameters",), "Frames": (), "Chinese": ()}
 """Extra -> the others that go before it, as the page says."""
 
 

@@ -36,7 +36,7 @@ RIVALS = {"CHF": "JSCC", "GD200A": "PF4", "JSCC": "CHF", "PF4": "GD200A", "SN300
 MADE_UP = ("CIA", "PRO", "PUL", "TWO", "LOW")
 """Drives that nobody builds, for what a map can say."""
 _WANTED = re.compile(
-    r"types/.*(?<!32)\.st|modbus/MB_Hex.*|line/(?!MB_ByteLine|MB_Line32).*|vfd/VFD_(?!ReasonText).*"
+    r"types/.*(?<!32)\.st|modbus/MB_Hex.*|line/(?!MB_ByteLine|MB_Line2|MB_Line32).*|vfd/VFD_(?!ReasonText).*"
     r"|(?!types|modbus|line|vfd)[^/]*/[^_]*_(?!\w+Text..\.|(Request|Reply|Command|Version|(Parameter|Number)Address)\.).*\.st"
 )
 

@@ -22,7 +22,7 @@ from structured_text.engines.embedded import EmbeddedEngine, EmbeddedInstance, E
 from structured_text.engines.engine import Value
 
 FOURTH = sorted((Path(__file__).parents[1] / "blocks/fourth_drive").glob("*.yaml"))
-TWINS = {"line/MB_ByteLine32.st", "line/MB_Line32.st"}
+TWINS = {f"line/MB_{line}{slots}.st" for line in ("ByteLine", "Line") for slots in (2, 32)}
 """The line for 32 drives has the statements of that for 8."""
 PARTS = ("Drive", "Identity", "Orders", "ParameterGate", "Reads")
 """What a drive block of a family is made of."""

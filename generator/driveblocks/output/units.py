@@ -10,7 +10,7 @@ from driveblocks.testing.suite import drive_suite, shared_suite
 from driveblocks.testing.unit import Unit
 from structured_text.engines.engine import Source as Text
 
-LARGE = ("/MB_Line32.st", "/MB_ByteLine32.st")
+OTHERS = tuple(f"/MB_{line}{slots}.st" for line in ("Line", "ByteLine") for slots in library.LINE_SIZES if slots != library.USUAL)
 """Shared blocks that no test of a drive needs: their statements are those of the line for 8 drives."""
 
 
@@ -18,7 +18,7 @@ def units(sources: Sequence[Source], languages: list[Language]) -> list[Unit]:
     """The shared blocks, then each drive with the shared blocks that it needs. Raises ValueError, as rendering does."""
     generic = tuple(_sources(library.generic(languages)))
     made = [Unit(shared_suite(languages), generic)]
-    needed = tuple(block for block in generic if not block.path.endswith(LARGE))
+    needed = tuple(block for block in generic if not block.path.endswith(OTHERS))
     for source in sources:
         own = _sources(library.drive(source.path.stem, source.drive, languages))
         made.append(Unit(drive_suite(source, languages), (*needed, *own)))

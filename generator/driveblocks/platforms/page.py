@@ -8,7 +8,7 @@ from pathlib import Path
 from driveblocks.platforms import cost
 from driveblocks.platforms.part import SHARED, Shelf, Volume
 from driveblocks.render.environment import ABI, render
-from driveblocks.render.library import CHINESE, FRAMES, LINE32, METER, PARAMETERS
+from driveblocks.render.library import CHINESE, FRAMES, LINE2, LINE32, METER, PARAMETERS
 from driveblocks.render.motor import SCAN_MS
 from structured_text.language.tree import ArraySpec, FunctionBlock, TypeDecl
 
@@ -17,6 +17,7 @@ _FAMILY = re.compile(r"\bX(?=_|\b)")
 KINDS = {"TYPE": "types", "FUNCTION": "functions", "FUNCTION_BLOCK": "function blocks", "PROGRAM": "programs"}
 WHAT = {
     "": "what every drive needs",
+    LINE2: "a line of up to 2 drives, with less data",
     LINE32: "a line of up to 32 drives",
     PARAMETERS: "reads, writes and stores parameters of a drive",
     METER: "a meter or a sensor on the line; needs `Parameters`",
@@ -26,7 +27,11 @@ WHAT = {
 """What an extra is for."""
 
 
-PORT = {"": "the serial port, with a line of 8 drives", LINE32: "32 drives at it; needs `DriveBlocks_Line32`"}
+PORT = {
+    "": "the serial port, with a line of 8 drives",
+    LINE2: "2 drives at it; needs `DriveBlocks_Line2`",
+    LINE32: "32 drives at it; needs `DriveBlocks_Line32`",
+}
 """What the files of a port are for."""
 
 

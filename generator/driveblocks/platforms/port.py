@@ -6,7 +6,7 @@ from driveblocks.maps.model import Drive
 from driveblocks.platforms import CANONICAL, PLATFORMS
 from driveblocks.render.drive import drive_block
 from driveblocks.render.environment import render
-from driveblocks.render.library import LINE_SIZES, File, sized, texts_of
+from driveblocks.render.library import LINE_SIZES, USUAL, File, texts_of
 from driveblocks.render.motor import motor
 from driveblocks.render.text import Language
 
@@ -24,13 +24,13 @@ def adapter(platform: str, languages: list[Language]) -> Iterator[File]:
         bits = "Bits" if one.parity else "CharacterBits"
         values = {"slots": slots, "where": one.where, "busy": one.busy, "bits": bits}
         line = render(f"{platform}/{one.line}.st.j2", **values, **texts_of(languages))
-        yield File(platform, f"{one.line}{slots}", line, sized(slots))
+        yield File(platform, f"{one.line}{slots}", line, LINE_SIZES[slots])
 
 
 def first_motor(platform: str, drive: Drive) -> File:
     one = PLATFORMS[platform]
     own = CANONICAL if one.prefix == "MB" else platform
-    values = {"platform": own, "where": one.where, "line": f"{one.line}{LINE_SIZES[0]}", **vars(motor(drive))}
+    values = {"platform": own, "where": one.where, "line": f"{one.line}{USUAL}", **vars(motor(drive))}
     return File(platform, f"{drive.prefix}_Motor", render("motor/Motor.st.j2", **values))
 
 

@@ -21,7 +21,7 @@ from structured_text.engines.engine import Source as Text
 
 GENERIC = "every drive"
 """How the blocks are called that every drive shares."""
-LARGE = ("Line8", "Line32")
+LARGE = tuple(f"Line{slots}" for slots in library.LINE_SIZES)
 """What the names of blocks end with that only hand from one block to the next, slot by slot; no rule is about them."""
 
 

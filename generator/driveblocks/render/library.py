@@ -11,7 +11,9 @@ from driveblocks.render.drive import drive_block
 from driveblocks.render.environment import render
 from driveblocks.render.text import Language
 
-LINE32, PARAMETERS, METER, FRAMES, CHINESE = EXTRAS = ("Line32", "Parameters", "Meter", "Frames", "Chinese")
+LINE2, LINE32, PARAMETERS, METER, FRAMES, CHINESE = EXTRAS = (
+    "Line2", "Line32", "Parameters", "Meter", "Frames", "Chinese",
+)  # fmt: skip
 """What a first motor does not need, each in files of its own, after what it uses."""
 TYPES = ("MB_Adu",)
 FRAME_TYPES = ("MB_Chars", "MB_Words", "MB_Registers", "MB_Request")
@@ -22,7 +24,7 @@ FRAME_BLOCKS = (
 )  # fmt: skip
 LINE_TYPES = (
     "MB_LineFrame", "MB_RxRing", "MB_Port", "MB_Words4", "MB_Words16", "MB_Ask", "MB_Asks", "MB_Answer", "MB_Answers",
-    "MB_Slot", "MB_StopTrack", "MB_StopCopy", "MB_Track", "MB_Heard", "MB_Sums",
+    "MB_Slot", "MB_StopTrack", "MB_StopCopy", "MB_Track", "MB_Given", "MB_Heard", "MB_Sums",
 )  # fmt: skip
 LINE_BLOCKS = (
     "MB_CrcByte", "MB_Plus", "MB_Minus", "MB_Sixteen", "MB_Usual", "MB_Retries", "MB_Characters", "MB_WireMs",
@@ -40,8 +42,10 @@ PARAMETER_BLOCKS = ("VFD_ReadParameter", "VFD_WriteParameter", "VFD_Store")
 DEVICE = ("MB_Device", "MB_Float")
 """What is for a meter or a sensor; the block needs some of those."""
 DRIVE_TYPES = ("VFD_Settings", "VFD_Diagnosis", "VFD_Asked", "VFD_Seen")
-LINE_SIZES = (8, 32)
-"""How many slots a line can have; the larger is an extra."""
+LINE_SIZES = {8: "", 2: LINE2, 32: LINE32}
+"""How many slots a line can have, that of the first motor first, and the extra that holds it."""
+USUAL = next(iter(LINE_SIZES))
+"""Slots of the line of a first motor."""
 ON_FRAMES = ("Request", "Reply")
 """Templates of blocks of a drive that make frames without a line."""
 LEAST_S = 60
@@ -115,12 +119,7 @@ def _sized(folder: str, name: str, languages: list[Language]) -> Iterator[File]:
     """One type or block for each number of slots."""
     for slots in LINE_SIZES:
         rendered = render(f"line/{name}.st.j2", slots=slots, **texts_of(languages))
-        yield File(folder, f"{name}{slots}", rendered, sized(slots))
-
-
-def sized(slots: int) -> str:
-    """The extra that holds a line of so many slots."""
-    return "" if slots == LINE_SIZES[0] else LINE32
+        yield File(folder, f"{name}{slots}", rendered, LINE_SIZES[slots])
 
 
 def drive(stem: str, drive: Drive, languages: list[Language]) -> Iterator[File]:

@@ -40,7 +40,7 @@ def built(folder: Path, tool: Installation | None = None, driver: str = "softplc
     names = (BLOCKS / "order.txt").read_text(encoding="utf-8").split()
     mine = ("types/", "modbus/", "line/", "vfd/", "invt_chf/")
     files = [BLOCKS / name for name in names if name.startswith(mine)]
-    linux = [BLOCKS.parent / "openplc/shared" / f"{name}.st" for name in ("LX_Port", "LX_Port_Line32")]
+    linux = [BLOCKS.parent / "openplc/shared" / f"{name}.st" for name in ("LX_Port", "LX_Port_Line2", "LX_Port_Line32")]
     texts = [path.read_text(encoding="utf-8") for path in (*files, *linux, HERE / "softplc.st")]
     tool = tool or FOUND[0]
     translate(tool, texts, folder)

@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 
+from driveblocks.render.library import LINE_SIZES
 from structured_text.engines.embedded.certainty import present
 from structured_text.engines.engine import BuildError, Message
 from structured_text.language import tree
@@ -20,8 +21,8 @@ from structured_text.language.tree import (
 from structured_text.language.types import Elementary
 from structured_text.language.walk import statements
 
-LINES = {"MB_LINE8", "MB_LINE32"}
-BYTE_LINES = {"MB_BYTELINE8", "MB_BYTELINE32"}
+LINES = {f"MB_LINE{slots}" for slots in LINE_SIZES}
+BYTE_LINES = {f"MB_BYTELINE{slots}" for slots in LINE_SIZES}
 UNPLACED = "?"
 """In a path: an instance that is not always the same one."""
 DRIVE = "_DRIVE"
