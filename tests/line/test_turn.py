@@ -79,7 +79,7 @@ def test_one_address_twice_lets_only_reads_and_stops_out_and_the_others_go_on(st
     bench.stop(1)
     sent = bench.run(300)
     assert [each.stop for each in sent if each.unit == 2 and not each.read] == [True]
-    assert len([each for each in sent if each.unit == 1]) > 10
+    assert len([each for each in sent if each.unit == 1]) >= 7  # of three drives
     assert bench.answer(0, COMMAND) == "OK"
     bench.put(2, UnitAddress=3)
     bench.run(600)
