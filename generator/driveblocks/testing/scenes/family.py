@@ -17,8 +17,8 @@ from driveblocks.testing.scenes.drive import KINDS, ORDERS
 from driveblocks.testing.scenes.scene import Shows
 from structured_text.language.writing import word
 
-NEVER_MS, STALE_MS = 65535, 1000
-"""The age of what was never read; what is older is too old, ms."""
+NEVER_MS, STALE_MS, LONGEST_MS = 65535, 1000, 8
+"""The age of what was never read; what is older is too old; no reply comes later, ms."""
 
 Row = list[Any]
 """In words, what is given, what must be shown."""
@@ -28,7 +28,7 @@ def parts(drive: Drive) -> dict[str, Any]:
     """Of the two blocks their inputs and calls."""
     verify = "Verify? " if _reads_of(drive)["verify"] else ""
     step = "StepNumber# " if _several(drive) else ""
-    inputs = f"Anew? Reread? Forget? {verify}StaleMs# PassedMs# Fresh? Entry# Count#USINT Turn# Words=Fetched"
+    inputs = f"Anew? Reread? Forget? {verify}LongestMs# StaleMs# PassedMs# Fresh? Surplus#USINT Entry# Count#USINT Turn# Words=Fetched"
     return {
         f"{drive.prefix}_Reads": {"inputs": inputs, "calls": [*_reads(drive), ["turns"], *_turns(drive)]},
         f"{drive.prefix}_Orders": {"inputs": f"Order# {step}ReferenceWord~", "calls": list(_orders(drive))},
@@ -42,10 +42,13 @@ def _reads(drive: Drive) -> Iterator[Row]:
     """Each read is answered, first too short; all of it grows old, and is forgotten in three ways."""
     known = _Known(drive)
     numbers = range(len(known.reads))
-    yield ["a restart", {"Anew": True, "StaleMs": STALE_MS, "PassedMs": 5}, known.shows()]
+    times = {"LongestMs": LONGEST_MS, "StaleMs": STALE_MS}
+    yield ["a restart", {"Anew": True, "PassedMs": 5} | times, known.shows()]
     yield ["nothing is read", {"Anew": False}, known.shows()]
     for each in numbers:
         yield from known.answered(each)
+    yield ["the last reply may be another's", *known.wait(LONGEST_MS)]
+    yield ["its own would have come by now", *known.wait(1)]
     for each in sorted(known.roles["young"]):
         yield ["again", *known.read(each, 3)]
         yield ["as old as it may be", *known.wait(STALE_MS)]
@@ -54,6 +57,10 @@ def _reads(drive: Drive) -> Iterator[Row]:
     yield ["it is read again", {"Reread": False, "Entry": 0}, known.shows()]
     for each in reversed(numbers):
         yield [f"read {each + 1}", *known.read(each, 7)]
+    yield ["one that nobody has asked for", *known.surplus()]
+    for each in numbers:
+        yield [f"read {each + 1}", *known.read(each, 7)]
+    yield ["the last reply may be another's", *known.wait(LONGEST_MS)]
     if known.roles["verify"]:
         yield ["settings are checked again", {"Verify": True, "Entry": 0, "PassedMs": 0}, known.lost("settings")]
         yield ["... once", {"Verify": False}, known.shows()]
@@ -84,9 +91,11 @@ class _Known:
         self.drive, self.reads, self.roles = drive, polls(drive), _reads_of(drive)
         self.ages = [NEVER_MS] * len(self.reads)
         self.since = [False] * len(self.reads)
+        self.since_ms = [0] * len(self.reads)
         self.settled = not self.roles["verify"]
         self.speed = self.proved = False
         """The frequency has come; it has, after all else that proves standstill."""
+        self.doubted = False
 
     def answered(self, number: int) -> Iterator[Row]:
         """A reply that is too short, and a good one."""
@@ -102,8 +111,8 @@ class _Known:
         words = self.reads[number].words
         gets = {"Fresh": True, "Entry": number + 1, "Count": words - (not believed), "PassedMs": passed}
         if believed:
+            self.since_ms[number] *= self.since[number]
             self.ages[number], self.since[number] = passed, True
-            self.settled = self.settled or all(self.since[each] for each in self.roles["verify"])
         return gets | {f".Fetched[{at}]": word(256 * number + 257 + at) for at in range(words)}, self.shows()
 
     def wait(self, passed: int) -> tuple[dict[str, Any], Shows]:
@@ -111,6 +120,13 @@ class _Known:
         self._pass(passed)
         self.speed = False
         return {"Fresh": False, "PassedMs": passed}, self.shows()
+
+    def surplus(self) -> tuple[dict[str, Any], Shows]:
+        """What was read just before may be the reply to another master."""
+        gets, _ = self.wait(0)
+        self.since = [self._sure(each) for each in range(len(self.reads))]
+        self.doubted = True
+        return gets | {"Surplus": 1}, self.shows()
 
     def lost(self, *what: str) -> Shows:
         """What counts no longer: what was answered `since`, its `ages`, the `settings`. No time passes meanwhile."""
@@ -121,6 +137,7 @@ class _Known:
             self.ages = [NEVER_MS] * len(self.reads)
         if "since" in what:
             self.since = [False] * len(self.reads)
+            self.doubted = False
         if "settings" in what and verify:
             self.settled = False
             self.since = [one and number not in verify for number, one in enumerate(self.since)]
@@ -128,23 +145,28 @@ class _Known:
 
     def _pass(self, passed: int) -> None:
         self.ages = [min(age + passed, NEVER_MS) for age in self.ages]
+        self.since_ms = [each + passed for each in self.since_ms]
 
     def shows(self) -> Shows:
         roles = self.roles
         self.proved = (self.proved or self.speed) and self._all("proof")
+        self.settled = self.settled or self._all("verify")
         found: Shows = {
             "StatusAgeMs": max(self.ages[each] for each in roles["status"]),
             "MeasuresAgeMs": max((self.ages[each] for each in roles["measures"]), default=NEVER_MS),
             "FaultAgeMs": max((self.ages[each] for each in roles["fault"]), default=0),
             "ProofRead": self.proved, "SpeedRead": self.speed, "FaultRead": self._all("fault"),
-            "SettingsRead": self.settled,
+            "SettingsRead": self.settled, "Doubted": self.doubted,
         }  # fmt: skip
-        more = {"master": "MasterRead", "states": "StatesRead"}
+        more = {"master": "MasterRead", "states": "StatesRead", "verify": "MeaningRead"}
         found |= {name: self._all(role) for role, name in more.items() if roles[role]}
         return found | {f"Young{each + 1}": self.ages[each] <= STALE_MS for each in sorted(roles["young"])}
 
     def _all(self, role: str) -> bool:
-        return all(self.since[each] for each in self.roles[role])
+        return all(self._sure(each) for each in self.roles[role])
+
+    def _sure(self, number: int) -> bool:
+        return self.since[number] and self.since_ms[number] > LONGEST_MS
 
     def _words(self, number: int) -> Shows:
         """The words that a read has brought."""

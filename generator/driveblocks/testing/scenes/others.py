@@ -18,6 +18,7 @@ MORE = More(
         "Inject": ("UINT", "how many; they come with the next scan, after a reply"),
         "Place": ("UINT", "next character"),
         "Late": ("UINT", "late replies that its slots count"),
+        "Lost": ("UINT", "registers of the read whose reply was lost"),
         "Hurry": ("BOOL", "the speed is another one in every scan"),
     },
     calls=(
@@ -250,9 +251,12 @@ def _hurry() -> Iterator[Step]:
 
 
 def _varied() -> Iterator[Step]:
-    yield Step("a reply is lost", {"Fate.Dumb": True}, "Bus.Timeouts > 0", 1000, {"CommOk": True})
-    another = "(Slots[0].OtherQuantity = 0) OR (Seen.Registers = USINT_TO_UINT(Slots[0].OtherQuantity))"
-    yield Step("the next one is another", {"Fate.Dumb": False}, f"NOT Fate.Dumb AND ({another})", 200)
+    dumb: Shows = {"Fate.Dumb": True, ".Mark": "Bus.Timeouts"}
+    yield Step("a reply is lost", dumb, "Bus.Timeouts > Mark", 1000, {"CommOk": True})
+    next_: Shows = {"Fate.Dumb": False, ".Lost": "Seen.Registers", ".Mark": "Seen.Reads"}
+    yield Step("the next one is another", next_, "Seen.Reads > Mark", 200, {
+        "(Slots[0].OtherQuantity = 0) OR (Seen.Registers <> Lost)": True,
+    })  # fmt: skip
     yield Step("then as ever", ms=1000, shows={"CommOk": True, "Reason": "READY"})
 
 

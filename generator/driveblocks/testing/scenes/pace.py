@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 
 from driveblocks.maps.model import Drive
+from driveblocks.maps.rivals import first_reads
 from driveblocks.testing.scenes.ability import Ability
 from driveblocks.testing.scenes.motor import NOTHING_STARTED, POWER, RUNNING, STANDS, run
 from driveblocks.testing.scenes.scene import More, Scene, Shows, Step, scene, script, why
@@ -56,7 +57,7 @@ def scenes(can: Ability) -> Iterator[Scene]:
         yield scene("how often a fault reset is tried", POWER, *_resets(can))
     yield scene("how soon silence is overdue", POWER, run(), *_silent())
     yield scene("silence at standstill is no alarm", POWER, *_standing())
-    yield scene("how often a dead drive is read", POWER, *_probes())
+    yield scene("how often a dead drive is read", POWER, *_probes(can))
     yield scene("silence after power-up", *_boots())
     yield scene("silence without supply", POWER, run(), *_no_supply())
     if can.drive.serial.unit.max > can.drive.serial.unit.min:
@@ -157,11 +158,14 @@ def _standing() -> Iterator[Step]:
     yield Step("it is whole", back, "Motor.Ready", 12000, STANDS | NOTHING_STARTED)
 
 
-def _probes() -> Iterator[Step]:
-    """After one, two, four and eight seconds, then every eight."""
+def _probes(can: Ability) -> Iterator[Step]:
+    """After one, two, four and eight seconds, then every eight; each second where a stop waits for its identity."""
     yield Step("its answers are lost", {"Fate.Dumb": True}, why("OFFLINE"), 4000)
-    yield Step("for 16 s", SLOW | FROM_HERE, ms=3200, shows={".Reads": (3, 6), ".Writes": (0, 18)})
-    yield Step("for 24 s more", SLOW | FROM_HERE, ms=4800, shows={".Reads": (2, 4), ".Writes": (0, 26)})
+    named = bool(first_reads(can.drive))  # forgotten after ten seconds
+    yield Step("for 16 s", SLOW | FROM_HERE, ms=3200, shows={".Reads": (3, 16 if named else 6), ".Writes": (0, 18)})
+    yield Step("for 24 s more", SLOW | FROM_HERE, ms=4800, shows={
+        ".Reads": (22, 25) if named else (2, 4), ".Writes": (0, 26),
+    })  # fmt: skip
     back: Shows = {"Fate.Dumb": False, "Pins.ElapsedMs": SCAN_MS}
     yield Step("it answers: read as ever", back, "Motor.Ready", 12000, NOTHING_STARTED | {"Bus.AllOnline": True})
     yield Step("no pause is left", FROM_HERE, ms=1000, shows={"Reads >= 8": True})

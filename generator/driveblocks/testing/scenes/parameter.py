@@ -212,9 +212,10 @@ def _not_stored(drive: Drive) -> Iterator[Step]:
     yield Step("it is well", {"Fate.RefusesWrites": False}, ms=50, shows=nothing)
     yield from does("Storer", 0, "Error", error("Storer", "TOO_SOON") | nothing)
     yield from _minute()
-    yield Step("its answers are lost", {"Fate.Dumb": True, "Pins.ParameterRetries": 200}, ms=20, shows=nothing)
+    lost: Shows = {"Fate.Skips": True, "Fate.Skipped": word(mark(drive.storage.register))}
+    yield Step("its answers are lost", lost | {"Pins.ParameterRetries": 200}, ms=20, shows=nothing)
     yield from does("Storer", 0, "Error", error("Storer", "SILENCE"), Within=600)
-    yield Step("it answers", {"Fate.Dumb": False, ".Within": WITHIN_MS}, "Motor.Ready", 2000)
+    yield Step("it answers", {"Fate.Skips": False, ".Within": WITHIN_MS}, "Motor.Ready", 2000)
     yield Step("it is dead", {"Fate.Cut": True}, why("OFFLINE"), 3000)
     yield Step("a minute passes", {"Pins.ElapsedMs": 500}, ms=2600)
     yield Step("at its usual pace", {"Pins.ElapsedMs": SCAN_MS}, ms=100)

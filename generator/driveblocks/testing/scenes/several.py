@@ -205,10 +205,13 @@ def _in_time(place: int) -> Iterator[Step]:
     yield Step("and is sent no more", {"Fate.Skips": False, ".Writing": False}, ms=400, shows={
         "Seen.Others": 0, "Writer.Error": False, f"Slots[0].Ask[2].Words[3] = {word(0x3400)}": True,
     })  # fmt: skip
-    dumb: Shows = {"Fate.Dumb": True, ".Reading": True, ".Within": 600}
-    yield Step("so is a read", dumb, "Reader.Error", 1000, error("Reader", "SILENCE") | {
+    unread: Shows = {"Fate.Unread": True, ".Reading": True, ".Within": 600}
+    yield Step("so is a read", unread, "Reader.Error", 1000, error("Reader", "SILENCE") | {
         f"Slots[0].Ask[2].Words[3] = {word(0x3400)}": True,
     })  # fmt: skip
+    yield Step("released", {"Fate.Unread": False, ".Reading": False}, ms=1000, shows={"Reader.Error": False})
+    yield Step("its drive answers nothing", {"Fate.Dumb": True}, "Slots[0].Timeouts > 0", 500)
+    yield Step("first of all it has to", {".Reading": True}, "Reader.Error", 1000, error("Reader", "NOT_SENT"))
     yield Step("released", {"Fate.Dumb": False, ".Reading": False}, ms=1000, shows={"Reader.Error": False})
     stuck: Shows = {"Pins.TxBusy": True, ".Writing": True, ".Reading": True, ".Within": 300}
     both = error("Writer", "NOT_SENT") | error("Reader", "NOT_SENT")
