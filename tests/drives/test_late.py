@@ -43,6 +43,7 @@ def test_a_drive_that_was_never_in_time_has_a_reason_of_its_own_until_it_is(kind
     assert shown(bench, 9000) == ["RESTARTED", "NO_REPLY", "LATE_REPLIES"]
     assert not bench.shows("CommOk")
     bench.block["Port.LateMs"] = 350
+    bench.put(StaleMs=20_000)  # else such a line is too slow for it
     bench.until(lambda: bench.shows("StopConfirmed") and bench.reason() == "READY", 12_000)
 
 

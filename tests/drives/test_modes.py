@@ -285,6 +285,8 @@ def test_a_motor_that_runs_at_another_address_is_stopped_and_watched_like_any() 
     bench = Bench("CHF").stopped()
     bench.drives[0].unit = 9
     bench.drives[0].keypad_run(20.0)
+    bench.run(900)
     bench.put(Address=9).run(300)
+    assert bench.drives[0].hertz > 0
     bench.deaf = {9}
     bench.until(lambda: bench.shows("StopOverdue"), 9000)

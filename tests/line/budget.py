@@ -35,6 +35,8 @@ READY, TOO_SLOW = 1, 55
 """Reasons: it may start, and nothing else is to be said; the line reads it too seldom."""
 STALE = 5000
 """The usual StaleMs."""
+SOME_DEAD = 1.6
+"""How much of CutToContactMs it may take while others answer, each of whom has the wire in between."""
 NEVER = 99.0
 """Times of what was promised: it did not come."""
 SHARE, STARTS = 0.5, 0.6
@@ -322,7 +324,7 @@ class Line:
             part = took / (US * self.cut_ms) if h.seen(at).overdue_at >= 0 else NEVER
             all_ = len(self.gone) == len(self.models)
             out.most("all cut" if all_ else "cut", part)
-            if part == NEVER or (part > 1 and all_):
+            if part > (1 if all_ else SOME_DEAD):
                 out.tell("cut", f"{self.draw.families[at]} {at + 1}: overdue after {part:.2f} x {self.cut_ms} ms")
         if h.library.short_silences.value:
             out.tell("silence", f"{h.library.short_silences.value} requests too early")

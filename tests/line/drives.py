@@ -48,7 +48,7 @@ def check(*values: int) -> int:
     """Of a stop: Number, Address, FunctionCode, Quantity, Unit, Family and its word, as a polynomial by a prime."""
     total = 1
     for value in values:
-        total = (total * 40503 + value) % 65521
+        total = (total * 251 + value) % 65521
     return total
 
 

@@ -7,7 +7,7 @@
 import sys
 from collections.abc import Callable, Iterator, Sequence
 from functools import cache
-from itertools import product
+from itertools import pairwise, product
 
 from tests.line.budget import ORDERS
 from tests.line.crowd import FAMILIES, Crowd, Exchange, Hall, crowd
@@ -40,8 +40,8 @@ OLD = 3 * 256
 COMMANDED = ("ATV312", "GD200A", "PF4", "PF400", "PF40P", "PF4M", "PF525")
 """Families whose registers show whether the bus is in command."""
 MODES = ("SpeedOnly", "MonitorOnly")
-NONE = 29
-"""An address that nobody has."""
+SILENT_US, EVERY_US = 5 * S, 3 * S
+"""From its silence to its stop; from one stop to the next, which is a second, with what is asked of it between."""
 Frame = tuple[int, int, bytes]
 
 
@@ -342,6 +342,31 @@ def old_line_run(case: Case, family: str) -> None:
         case.stands(one)
 
 
+def silent(case: Case, family: str) -> None:
+    """A drive that runs and falls silent is sent its stop every second, whatever has to be read of it before."""
+    h = case.hall
+    one = case.model(family, 1)
+    h.drive(family, 1)
+    h.restart()
+    if not case.start(0, one):
+        return
+    stops: list[int] = []
+
+    def heard(exchange: Exchange) -> None:
+        data = exchange.data
+        if data[1] > LAST_READ and int.from_bytes(data[2:4], "big") == ORDERS[family] and not runs_of(family, data):
+            stops.append(exchange.begins)
+
+    h.watch.append(heard)
+    h.deaf.add(1)
+    begun = h.now + SILENT_US
+    h.run(h.now + 60 * S)
+    times = [begun, *(at for at in stops if at > begun), h.now]
+    gap = max(later - at for at, later in pairwise(times))
+    if gap > EVERY_US:
+        case.tell("unstopped", f"{gap // 1000} ms without a stop, {len(stops)} in a minute")
+
+
 def refused(case: Case, family: str, mode: str, how: str) -> None:
     """A restart, or a power-up, into a mode without command, while the bus runs the motor and stops are refused."""
     h = case.hall
@@ -400,6 +425,7 @@ ALONE: dict[str, Happens] = {
     "old block run": old_block_run,
     "old line": old_line,
     "old line run": old_line_run,
+    "silent": silent,
 }
 RESTARTS: dict[str, Happens] = {"refused": refused, "terminals": terminals}
 HAPPENS = SHARED | PAIRS | ALONE | RESTARTS

@@ -1,7 +1,7 @@
 """Coils, discrete inputs and input registers on the line, on every engine: reads by 01H, 02H and 04H, writes by 05H."""
 
 import pytest
-from tests.line.drives import KINDS
+from tests.line.drives import KINDS, counted
 from tests.line.vline import COMMAND, PARAMETER, POLL, Bench, Config, line_sources
 
 from structured_text.engines.engine import Engine, Library
@@ -77,9 +77,9 @@ def test_a_coil_is_written_by_one_frame_whatever_quantity_was_asked_for(engine: 
 @pytest.mark.parametrize("wrong", [b"\x00\x01\x00\x00", b"\x00\x02\xff\x00"])
 def test_the_reply_to_a_write_repeats_coil_and_value(engine: Engine, wrong: bytes) -> None:
     bench = coils(engine).ready()
-    bench.drives[1].answer = lambda request: request[:2] + wrong if request[1] == 5 else None
+    bench.drives[1].answer = lambda request: request[:2] + wrong if request[1] == 5 else counted(request, 1)
     bench.ask(1, COMMAND, 5, 0x0001, word=0xFF00)
-    bench.run(400)
+    bench.run(700)
     assert bench.answer(1, COMMAND) in ("SILENCE", "CHECKSUM")
 
 

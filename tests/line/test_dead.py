@@ -12,7 +12,7 @@ from tests.line.vline import PARAMETER, Bench, Config
 def test_a_new_address_is_a_new_drive() -> None:
     bench = Bench().ready()
     bench.put(1, StopConfirmed=True)
-    bench.scan()
+    bench.run(110)  # a slot at rest is looked at each 100 ms
     bench.drives[1].unit = 20
     bench.put(1, UnitAddress=20)
     bench.scan()

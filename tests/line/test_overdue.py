@@ -77,11 +77,11 @@ def test_one_lost_reply_beside_a_drive_that_has_just_died_is_no_silent_line() ->
     bench.put(0, TurnRoundMs=500)
     bench.ready().run(500)
     bench.drives[0].alive = False
-    while bench["Times.LineSilentMs"] < 1000:
+    while bench["Silence.SilentMs"] < 1000:
         bench.scan()
     bench.drives[1].alive = False
     bench.scan()
-    while bench["Phase"] == 2:
+    while bench["Exchange.Phase"] == 2:
         bench.scan()
     bench.drives[1].alive = True
     for _ in range(1500):

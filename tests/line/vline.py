@@ -220,7 +220,9 @@ class Bench:
     def _own(self, slot: int, box: int) -> None:
         """Write whose a request is, as its drive block does."""
         path = f"Slots[{slot}].Ask[{box}]."
-        self.block[path + "Unit"], self.block[path + "FamilyCode"] = (self.slot(slot, n) for n in ("UnitAddress", "FamilyCode"))
+        self.block[path + "Unit"], self.block[path + "FamilyCode"] = (
+            self.slot(slot, n) for n in ("UnitAddress", "FamilyCode")
+        )
         if box == STOP:
             self.block[path + "Check"] = check(*(self[path + name] for name in CHECKED), self[path + "Words[0]"])
 
@@ -272,10 +274,18 @@ class Bench:
         return self.sent[before:]
 
     def ready(self) -> Self:
-        """Scan until every drive that lives is online and the echo is known."""
-        self.run(1000 + self.config.longest_ms)
-        assert all(self.slot(index, "Online") == drive.alive for index, drive in enumerate(self.drives))
+        """Scan until every drive that lives is online, may be commanded, and the echo is known."""
+        self.run(1000)
+        until = self.now + 40 * self.config.scan * self.config.drives
+        while self.now < until and not self._online():
+            self.scan()
+        self.run(self.config.longest_ms)
+        assert self._online()
         return self
+
+    def _online(self) -> bool:
+        """Whether the drives that live are online, and no others."""
+        return all(self.slot(index, "Online") == drive.alive for index, drive in enumerate(self.drives))
 
     def scan(self, took: int | None = None, elapsed: int | None = None) -> None:
         """One scan: receive, drive blocks, line, send."""

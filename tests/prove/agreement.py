@@ -57,9 +57,9 @@ def sources() -> dict[str, list[Source]]:
 
 @cache
 def subjects(family: str) -> list[Model]:
-    """The blocks of a family of which something is proved; of every drive those that all share."""
+    """The blocks of a family of which something is proved; of those that all share the ones that leave no part free."""
     if family == prover.GENERIC:
-        return models(sources()[family], rules.shared())
+        return models(sources()[family], [each for each in rules.shared() if not each.loose])
     drive = next(each.drive for each in shipped.sources() if each.path.stem == family)
     return models(sources()[family], rules.family(facts(drive)))
 

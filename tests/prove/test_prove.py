@@ -1,10 +1,12 @@
 """`driveblocks prove`: the shipped families, a planted mistake with its call, and what the command says of both."""
 
 from collections.abc import Iterator
+from dataclasses import replace
 from functools import cache
 from pathlib import Path
 
 import pytest
+import yaml
 from click.testing import CliRunner
 from lxml import etree
 from tests import shipped
@@ -25,13 +27,15 @@ FAMILIES = tuple(path.stem for path in catalog.shipped())
 PAGE = Path(__file__).parents[2] / "docs" / "prove.md"
 
 
-def planted(old: str, new: str, block: str = "VFD_HardStop", of: str = "VFD_HardStop") -> Proved:
-    """What becomes of a shared block if it, or a part of it, is changed."""
+def planted(old: str, new: str, block: str = "VFD_HardStop", of: str = "VFD_HardStop", rule: str = "") -> Proved:
+    """What becomes of a shared block if it, or a part of it, is changed; of its rules those that begin so."""
     texts = [
-        each if each.path != f"vfd/{block}.st" else type(each)(each.path, each.text.replace(old, new, 1))
+        each if Path(each.path).stem != block else type(each)(each.path, each.text.replace(old, new, 1))
         for each in agreement.sources()[prover.GENERIC]
     ]
-    return next(prover.proved(texts, {prover.GENERIC: [each for each in rules.shared() if each.block == of]}))
+    subject = next(each for each in rules.shared() if each.block == of)
+    some = tuple(each for each in subject.rules if each.say.startswith(rule))
+    return next(prover.proved(texts, {prover.GENERIC: [replace(subject, rules=some)]}))
 
 
 @cache
@@ -146,6 +150,27 @@ def test_a_mistake_in_a_part_breaks_a_rule_of_the_whole() -> None:
     assert all(each.replayed for each in bad)
 
 
+FAULTS = [
+    pytest.param(block, each, id=each["say"])
+    for block, those in yaml.safe_load(Path(__file__).with_name("faults.yaml").read_text("utf-8")).items()
+    for each in those
+]
+
+
+@pytest.mark.parametrize(("block", "fault"), FAULTS)
+@pytest.mark.thorough
+def test_a_mistake_in_a_block_breaks_its_rule(block: str, fault: dict[str, str]) -> None:
+    proved = planted(fault["text"], fault["becomes"], block, block, fault["breaks"])
+    assert any(each.answer.question.words.startswith(fault["breaks"]) for each in proved.proofs if not each.good)
+
+
+def test_the_line_calls_who_is_next_in_the_order_that_its_proof_takes_for_granted() -> None:
+    text = (PAGE.parents[1] / "blocks" / "iec61131" / "line" / "MB_Line8.st").read_text("utf-8")
+    called = [each.split()[0].strip(",);") for each in text.split("Next(Event := ")[1:]]
+    order = [each for number, each in enumerate(called) if each != called[number - 1]]
+    assert order == ["NEXT_ANEW", "NEXT_BEGINS", "NEXT_OFFER", "NEXT_DECIDES", "NEXT_SENT"]
+
+
 MAPS = [
     pytest.param(name, marks=() if name in ("pulse", "signed") else pytest.mark.long)
     for name in (*texts(), "signed", "new")
@@ -166,5 +191,5 @@ def test_a_map_of_ones_own_is_proved(name: str, tmp_path: Path) -> None:
 
 def test_the_page_names_every_rule_of_the_design() -> None:
     page = (PAGE.parent / "measured" / "prove.md").read_text("utf-8")
-    named = [*range(9), *(f"A{number}" for number in range(1, 18)), *(f"B{number}" for number in range(1, 17))]
+    named = [*range(9), *(f"A{number}" for number in range(1, 24)), *(f"B{number}" for number in range(1, 17))]
     assert not [each for each in named if f"| {each} |" not in page]

@@ -169,4 +169,5 @@ class Orders:
             self.idle_us is not None
             and bench.now - self.idle_us > 1000 * int(bench.number("StopWithinMs", self.index)) + OVERDUE_US
         )
-        self._once("overdue", bad=late and not self._shows("StopOverdue"))
+        rests = not bench.models[self.index].motor.hz(bench.now) and bench.reachable(self.index)  # what lacks is proof
+        self._once("overdue", bad=late and not rests and not self._shows("StopOverdue"))

@@ -86,6 +86,6 @@ def _say(done: "list[Proved]") -> int:
     free = sum(not each.replayed for each in calls if each.good)
     verdict = f"{len(bad)} not proved" if bad else "all proved"
     seconds = sum(each.seconds for each in done)
-    click.echo(f"{len(calls)} premises run on the embedded engine, of which {free} rest on REALs that were left free")
+    click.echo(f"{len(calls)} premises run on the embedded engine, of which {free} rest on values that were left free")
     click.echo(f"{len(proofs)} questions: {verdict} in {seconds:.1f} s")
     return len(bad)

@@ -51,18 +51,20 @@ def members(declared: TypeDecl, drive: Drive) -> list[Member]:
     """The members of VFD_Settings or VFD_Diagnosis, in the order of declaration."""
     assert isinstance(declared.spec, StructSpec)  # noqa: S101  (both are structures)
     facts = dict([*_settings(drive), *_diagnosis(drive)])
-    return [_member(one, facts.get(one.name, "")) for one in declared.spec.fields]
+    settings = declared.name == "VFD_Settings"
+    return [_member(one, facts.get(one.name, ""), settings=settings) for one in declared.spec.fields]
 
 
-def _member(one: VarDecl, family: str) -> Member:
+def _member(one: VarDecl, family: str, *, settings: bool) -> Member:
+    """A member; what 0 means stands apart where it is to be set."""
     said = " ".join(one.trailing.text.split()) if one.trailing else ""
-    zero = _ZERO.search(said)
+    zero = _ZERO.search(said) if settings else None
     unit = unit_of(one.name)
     return Member(
         name=one.name,
         type=one.type.name,
         unit=unit,
-        says=SAYS.get(one.name) or _UNITS.sub("", _ZERO.sub("", said)),
+        says=SAYS.get(one.name) or _UNITS.sub("", _ZERO.sub("", said) if zero else said),
         zero=_zero(zero["zero"], unit) if zero else ZEROS.get(one.name, ""),
         family=family,
         required=family.startswith("required"),

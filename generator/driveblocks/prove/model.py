@@ -131,14 +131,14 @@ def _model(subject: Subject, pou: Pou, checked: Checked) -> Model:
             before[path] = inputs[path] = z3.Const(BEFORE + path, sort(leaf.type))
             if each.kind is VarKind.INPUT:
                 inputs[path] = z3.Const(path, sort(leaf.type))
-    after, obligations = run(pou, inputs, exact=subject.exact)
+    after, obligations = run(pou, inputs, exact=subject.exact, loose=subject.loose)
     if isinstance(pou, Function):
         before["RESULT"], after["RESULT"] = before[pou.name.upper()], after[pou.name.upper()]
     return Model(subject, pou, checked, before, inputs, after, obligations)
 
 
-def run(pou: Pou, inputs: Store, *, exact: bool = False) -> tuple[Store, list[Obligation]]:
+def run(pou: Pou, inputs: Store, *, exact: bool = False, loose: Sequence[str] = ()) -> tuple[Store, list[Obligation]]:
     """The memory after a call, and what has to hold in it for all compilers to agree."""
-    terms = Terms(dict(inputs), exact=exact)
+    terms = Terms(dict(inputs), exact=exact, loose=loose)
     terms.block(pou, "", {name: name for name in in_outs(pou)})
     return terms.store, terms.obligations

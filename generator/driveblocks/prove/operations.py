@@ -137,8 +137,8 @@ def _divided(op: str, left: Term, right: Term, kind: Elementary, demand: Demand)
         return choice(folded(z3.ULT(left, right)), left, folded(left - right))
     if op == "/":
         return z3.UDiv(left, right)
-    rest = z3.URem(left, right)
-    return choice(folded(z3.ULT(rest, right)), rest, z3.BitVecVal(0, kind.width))  # it always is: the solver need not find out
+    rest = z3.URem(left, right)  # that it is below the divisor the solver need not find out
+    return choice(folded(z3.ULT(rest, right)), rest, z3.BitVecVal(0, kind.width))
 
 
 def negated(term: Term, kind: Elementary, demand: Demand) -> Term:

@@ -12,7 +12,7 @@ from structured_text.engines.engine import Value
 from structured_text.language.tree import VarKind
 
 ENGINE = "z3"
-REPLAYED, NOT_REPLAYED = "replayed on the embedded engine", "not replayed: it rests on REALs that were left free"
+REPLAYED, NOT_REPLAYED = "replayed on the embedded engine", "not replayed: it rests on values that were left free"
 AGREE = "every result stays within its width, every index within its bounds, and no divisor is 0"
 """What is said of all that compilers have to agree on."""
 

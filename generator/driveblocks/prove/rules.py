@@ -30,6 +30,7 @@ class Subject:
     `given`: what the caller promises of the inputs. `means`: words for conditions, in order. `always`: what holds of
     the memory after every call. `inside`: the instance of another subject, whose promises are proved here.
     `exact`: it computes with REALs, which others leave free; its obligations are its own.
+    `loose`: instances inside it that are left free: any value of theirs may come, which proves less, never more.
     `by_caller`: it is the caller that sees to a restart in the first call.
     """
 
@@ -42,6 +43,7 @@ class Subject:
     inside: Mapping[str, str] = field(default_factory=dict)
     by_caller: bool = False
     exact: bool = False
+    loose: tuple[str, ...] = ()
 
     def conditions(self) -> dict[str, str]:
         """Every condition as a BOOL by its name, in an order in which each names only those before it."""
@@ -71,7 +73,7 @@ def _read() -> dict[str, Any]:
 
 
 def _subject(block: str, found: dict[str, Any], values: Mapping[str, str]) -> Subject:
-    known = {"restart", "given", "means", "always", "rules", "inside", "restart_by_caller", "exact"}
+    known = {"restart", "given", "means", "always", "rules", "inside", "restart_by_caller", "exact", "loose"}
     if unknown := set(found) - known:
         raise ValueError(f"{FILE}: {block}: {', '.join(sorted(unknown))}")
     return Subject(
@@ -83,6 +85,7 @@ def _subject(block: str, found: dict[str, Any], values: Mapping[str, str]) -> Su
         rules=tuple(_rule(each, values) for each in found.get("rules", ())),
         inside=found.get("inside", {}),
         exact=bool(found.get("exact")),
+        loose=tuple(found.get("loose", ())),
         by_caller=bool(found.get("restart_by_caller")),
     )
 

@@ -46,6 +46,8 @@ Store = dict[str, Term]
 """What every scalar is, by its path."""
 Run = Callable[[], None]
 """What a branch does."""
+GLANCE = 100_000
+"""Steps of the solver to see whether a loop is over."""
 TURNS = 40
 """Turns of a loop that are unrolled at most."""
 
@@ -76,9 +78,10 @@ class Frame:
 class Terms:
     """Runs bodies on a store of terms."""
 
-    def __init__(self, store: Store, *, exact: bool = False) -> None:
-        """Begin with what every scalar is; `exact`: REALs are computed with, too."""
+    def __init__(self, store: Store, *, exact: bool = False, loose: Sequence[str] = ()) -> None:
+        """Begin with what every scalar is; `exact`: REALs are computed with, too; `loose`: instances left free."""
         self.exact = exact
+        self.loose = {name.upper() for name in loose}
         self.store = store
         self.guard: Term = z3.BoolVal(True)
         self.obligations: list[Obligation] = []
@@ -192,7 +195,7 @@ class Terms:
     def _while(self, each: While, turns: int) -> None:
         """Unroll a loop until its condition cannot hold any more, whatever the variables are."""
         condition = z3.simplify(self.value(each.condition))
-        if z3.is_false(condition):
+        if z3.is_false(condition) or (not z3.is_true(condition) and self._never(condition)):
             return
         if turns >= TURNS:
             raise UnsupportedError("a loop without a constant bound")
@@ -202,6 +205,12 @@ class Terms:
             self._while(each, turns + 1)
 
         self._fork(condition, run, lambda: None)
+
+    def _never(self, condition: Term) -> bool:
+        """Whether a condition cannot hold here, as the solver sees at a glance."""
+        solver = z3.SolverFor("QF_BVFP")
+        solver.set("rlimit", GLANCE)
+        return bool(solver.check(self.guard, condition) == z3.unsat)
 
     # ------------------------------------------------------------ calls
 
@@ -220,7 +229,11 @@ class Terms:
             elif direction is Direction.IN_OUT:
                 in_outs[name] = self._place(binding.value)
         at = self.at
-        self.block(target.declaration, f"{place}.", in_outs)
+        if place in self.loose:
+            for path in [path for path in self.store if path.startswith(f"{place}.")]:
+                self.store[path] = operations.free(self.store[path].sort())
+        else:
+            self.block(target.declaration, f"{place}.", in_outs)
         self.at = at
         for binding in call.bindings:
             if binding.value is not None and binding.parameter.direction is Direction.OUTPUT:

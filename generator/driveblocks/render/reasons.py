@@ -234,16 +234,16 @@ REASONS = (
     Reason(
         54,
         "LEARNING",
-        "the line is still learning how fast the drives answer",
+        "it is not known yet how fast the drive answers",
         "正在测定变频器应答时间",
-        "wait for 20 replies, or set `Settings.TurnRoundMs`",
+        "wait until it has answered 20 times, or set `Settings.TurnRoundMs`",
     ),
     Reason(
         55,
         "TOO_SLOW",
         "the line is too slow: ReadMs is above StaleMs",
         "总线过慢：ReadMs大于StaleMs",
-        "compare `Diagnosis.ReadMs` with `Diagnosis.StaleMs`: fewer drives, a higher bit rate, a shorter "
+        "`Diagnosis.ReadMs` and `Diagnosis.StaleMs` are the figures: fewer drives, a higher bit rate, a shorter "
         "`Settings.TurnRoundMs`, or a longer `Settings.StaleMs`",
     ),
     Reason(
@@ -251,7 +251,7 @@ REASONS = (
         "MAY_BE_LATE",
         "ready; if other drives fail, the status may become too old",
         "就绪；其他变频器故障时状态可能过期",
-        "it bars no start; compare `Diagnosis.WorstReadMs` with `Diagnosis.StaleMs`: fewer drives, a higher bit rate, "
+        "it bars no start; `Diagnosis.WorstReadMs` is above `Diagnosis.StaleMs`: fewer drives, a higher bit rate, "
         "`SupplyOff` where supplies fail together, or a longer `Settings.StaleMs`",
     ),
     Reason(
@@ -259,15 +259,16 @@ REASONS = (
         "MAY_STARVE",
         "ready; if other drives fail, the watchdog of the drive may trip",
         "就绪；其他变频器故障时通讯超时保护可能动作",
-        "it bars no start; compare `WorstFeedMs` of the slot with `Settings.WatchdogMs`: fewer drives, a higher bit "
-        "rate, or a longer watchdog",
+        "it bars no start; `WorstFeedMs` of the slot is above two thirds of `Settings.WatchdogMs`: fewer drives, a "
+        "higher bit rate, or a longer watchdog",
     ),
     Reason(
         58,
         "UNPROVED",
         "standstill is not proved: another master reads this drive",
         "停机未证实：另有主站读取此变频器",
-        "switch it off, or let it ask less often: between two of its requests there has to be time for one of ours",
+        "nothing starts; switch that master off, or let it ask less often: between two of its requests there has to be "
+        "time for one of ours",
     ),
     Reason(
         59,

@@ -122,7 +122,9 @@ def _string_comparison(scope: Scope, value: Binary) -> None:
 
 def _short_circuit(scope: Scope, value: Binary) -> None:
     """A right side that is only safe if the left side was evaluated first, or that does something."""
-    guard = {id(each.symbol) for each in expressions(value.left) if isinstance(each, Name) and each.symbol is not None}
+    indices = {id(each) for index in expressions(value.left) for each in _indices(index)}  # an index there guards none
+    names = [each for each in expressions(value.left) if isinstance(each, Name) and id(each) not in indices]
+    guard = {id(each.symbol) for each in names if each.symbol is not None}
     for each in expressions(value.right):
         if _acts(each):
             text = f"matiec skips the right side of {value.op} where others do not: call the function before"
@@ -143,6 +145,11 @@ def _risks(value: Expression) -> list[Name]:
     """The variables on which it depends whether an expression can be evaluated at all."""
     if isinstance(value, Binary) and value.op in ("/", "MOD"):
         return [each for each in expressions(value.right) if isinstance(each, Name)]
+    return _indices(value)
+
+
+def _indices(value: Expression) -> list[Name]:
+    """The variables by which an array is indexed."""
     if isinstance(value, Index):
         return [each for index in value.indices for each in expressions(index) if isinstance(each, Name)]
     return []
