@@ -18,6 +18,8 @@ KNOWING = tuple(kind for kind in FAMILIES if maps()[kind].operation.commanded_by
 MODES = ("SpeedOnly", "MonitorOnly")
 WRITES = (5, 6, 16)
 REASON = 2
+BUSY = {"CHF": 8, "JSCC": 6, "SN300G5": 36}
+"""The refusal of a busy drive."""
 
 
 @cache
@@ -29,6 +31,7 @@ class Refusing(SimulatedDrive):
     """It refuses whatever is written, and does nothing of it."""
 
     refuses = False
+    reason = REASON
 
     def __init__(self, kind: str) -> None:
         super().__init__(maps()[kind], 1, Habits())
@@ -39,8 +42,8 @@ class Refusing(SimulatedDrive):
             return super().reply(request)
         form = self.form
         if form.add:
-            return bytes([request[0], request[1] + form.add, REASON])
-        return bytes([request[0], form.function, form.address >> 8, form.address & 0xFF, 0, REASON])
+            return bytes([request[0], request[1] + form.add, self.reason])
+        return bytes([request[0], form.function, form.address >> 8, form.address & 0xFF, 0, self.reason])
 
 
 def bench_of(kind: str) -> Bench:
@@ -51,7 +54,7 @@ def bench_of(kind: str) -> Bench:
 
 @pytest.fixture(autouse=True)
 def _willing() -> None:
-    Refusing.refuses = False
+    Refusing.refuses, Refusing.reason = False, REASON
 
 
 @pytest.mark.parametrize("begins", ["restart", "power-up"])
@@ -73,9 +76,24 @@ def test_a_refused_stop_of_a_motor_that_the_bus_runs_is_overdue(kind: str, mode:
 
 @pytest.mark.parametrize("mode", MODES)
 @pytest.mark.parametrize("kind", FAMILIES)
-def test_a_refused_stop_of_a_motor_at_rest_ends_once_that_is_read_after_it(kind: str, mode: str) -> None:
+@pytest.mark.parametrize("ms", [20, 60])
+def test_a_refused_stop_of_a_motor_at_rest_ends_once_that_is_read_after_it(kind: str, mode: str, ms: int) -> None:
     bench = bench_of(kind).stopped()
     Refusing.refuses = True
+    assert_never_overdue(bench, mode, ms)
+
+
+@pytest.mark.parametrize("kind", BUSY)
+def test_so_does_one_that_a_busy_drive_refuses(kind: str) -> None:
+    bench = bench_of(kind).stopped()
+    Refusing.refuses, Refusing.reason = True, BUSY[kind]
+    assert_never_overdue(bench, "MonitorOnly", 20)
+
+
+def assert_never_overdue(bench: Bench, mode: str, ms: int) -> None:
+    """After a restart with that much time between two scans."""
+    bench.ms = ms
+    bench.line(MaxScanMs=ms)
     bench.put(**{mode: True}).restart()
     overdue: list[bool] = []
     bench.watch.append(lambda one: overdue.append(one.shows("StopOverdue")))

@@ -14,6 +14,7 @@ from driveblocks.platforms.cost import CODE_KIB, FAMILY_KIB
 from driveblocks.platforms.openplc.writer import write
 
 BLOCKS = Path(__file__).parents[2] / "blocks"
+PAGE = BLOCKS.parent / "docs/memory.md"
 SECTION = re.compile(r"^(VAR\w*)[^\n]*\n(.*?)^END_VAR", re.MULTILINE | re.DOTALL)
 VARIABLE = re.compile(r"^  (\w+) : (?:ARRAY\[0\.\.(\d+)\] OF )?(\w+)", re.MULTILINE)
 ROW = re.compile(r"^\| .* \| (?:`(\w+)` ([\d,]+)|-) \| (\d+|-) \|$", re.MULTILINE)
@@ -60,6 +61,14 @@ def test_the_families_say_how_many_bytes_one_drive_takes() -> None:
     page = (BLOCKS / "docs/Families.md").read_text("utf-8")
     for drive in made().drives.values():
         assert re.search(rf"^\| `{drive.prefix}` \|.* \| {data(f'{drive.prefix}_Drive'):,} \|$", page, re.MULTILINE)
+
+
+@pytest.mark.parametrize(("slots", "drives"), [(2, 1), (8, 4), (8, 8)])
+def test_the_page_of_memory_says_how_many_bytes_a_line_takes(slots: int, drives: int) -> None:
+    row = next(row for row in PAGE.read_text("utf-8").splitlines() if "references" in row)
+    said = int(row.split(" | ")[{1: 1, 4: 2, 8: 3}[drives]].strip(" |").replace(",", ""))
+    buffers = size_of("MB_Adu") + size_of("MB_LineFrame") + slots * size_of("MB_Slot")
+    assert said == pytest.approx(kept(f"MB_ByteLine{slots}") + buffers + drives * kept("PF4_Drive"), rel=0.05)
 
 
 def code(names: list[str], folder: Path) -> int:

@@ -162,7 +162,7 @@ def _line(words: Words, seen: Controller, loaded: source.Loaded, times: Mapping[
     seen.scan(2000 * scan)
     late, form = times["port_late"], (words.form or "").upper()
     return Line(
-        library=loaded.library, size=size, slots=_slots(seen, size) | _stops(seen, size), unlearned=unlearned,
+        library=loaded.library, size=size, slots=_slots(seen, size) | _requests(seen, size), unlearned=unlearned,
         units=_units(seen, size),
         pins={name: number(block, f"{bus}.{name}") for name in PINS}, within=times["within"],
         rate=words.rate or number(block, f"{bus}.BitRate") or USUAL["BitRate"],
@@ -176,10 +176,11 @@ def _line(words: Words, seen: Controller, loaded: source.Loaded, times: Mapping[
 
 def _size(block: EmbeddedInstance, bus: str) -> int:
     """How many slots the line has."""
-    try:
-        block[f"{bus}.Slots[8].Alive"]
-    except KeyError:
-        return 8
+    for size in (2, 8):
+        try:
+            block[f"{bus}.Slots[{size}].Alive"]
+        except KeyError:
+            return size
     return MOST_UNITS
 
 
@@ -188,8 +189,8 @@ def _slots(seen: Controller, size: int) -> dict[str, int]:
     return {path: number(seen.instance, f"{seen.wiring.line}.{path}") for path in paths}
 
 
-def _stops(seen: Controller, size: int) -> dict[str, int]:
-    """How the drives are stopped, also those whose block holds its stop back until it has read what its drive is."""
+def _requests(seen: Controller, size: int) -> dict[str, int]:
+    """The longest read of each drive, and its stop, which its block may hold back until it knows what the drive is."""
     drives = {seen.unit(each): seen.drive(each) for each in seen.wiring.drives}
     found = {}
     for at in range(size):
@@ -197,6 +198,7 @@ def _stops(seen: Controller, size: int) -> dict[str, int]:
         if drive:
             stop = next(one for one in drive.operation.commands if one.does == "stop")
             found[f"Slots[{at}].Ask[0].FunctionCode"] = writes_by(drive, stop.register)
+            found[f"Slots[{at}].Ask[3].Quantity"] = max(each.words for each in polls(drive))
     return found
 
 
