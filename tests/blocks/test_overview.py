@@ -104,9 +104,11 @@ WORST: dict[str, dict[str, Value]] = {
 """Pins with which a block turns as often as it can."""
 
 SLACK = {
-    "MB_AsciiDecode": 1, "MB_Frame": 3, "SN300G5_FaultNumber": 32, "GD200A_Request": 1, "ATV312_Request": 23, "MX2_Request": 11,
+    "MB_AsciiDecode": 1, "MB_Frame": 3, "SN300G5_FaultNumber": 32, "GD200A_Request": 1, "ATV312_Request": 23,
+    "MX2_Request": 11,
 }  # fmt: skip
-"""Turns that the stated bound has to spare: the LRC is not summed with itself; a request of a line has fewer bytes; bits that no fault has are masked;
+"""Turns that the stated bound has to spare: the LRC is not summed with itself; a request of a line has fewer bytes;
+bits that no fault has are masked;
 no more registers that can be written are side by side."""
 
 
