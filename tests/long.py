@@ -1,6 +1,6 @@
 """What runs for minutes and hours, one by one: `make long WHAT=line`; without WHAT the list.
 
-SEED, FIRST, TIMES and SECONDS are those of the environment, or of `make long WHAT=matrix TIMES=1`.
+SEED, FIRST, PART, TIMES and SECONDS are those of the environment, or of `make long WHAT=matrix TIMES=1`.
 """
 
 import os
@@ -69,7 +69,7 @@ RUNS = {
     "budget": Run(
         "10,000 random lines of real drive blocks: ages, stops, whom others stop; eight of each family while some die",
         "half an hour",
-        ("tests.line.budget --alike", "tests.line.budget --first {FIRST}"),
+        ("tests.line.budget --alike", "tests.line.budget --first {FIRST} --store build/budget-{FIRST}.jsonl"),
     ),
     "panel": Run("2,000 walks beside a second master", "3 minutes", ("tests.line.panel --first {FIRST}",)),
     "owners": Run(
@@ -81,6 +81,11 @@ RUNS = {
         "every mode x event x state on second models of the drives, four times, and random walks (TIMES)",
         "an hour",
         ("tests.second.long --times {TIMES}",),
+    ),
+    "walks": Run(
+        "random walks with several on a line, PART 1 to 4, each with seeds of its own; goes on where it was ended",
+        "90 minutes",
+        ("tests.second.long --part {PART} --store build/walks-{PART}.jsonl",),
     ),
     "prove": Run(
         "every rule for every family and made-up drive, 10^3 calls per block on the engine",
@@ -110,7 +115,9 @@ RUNS = {
 
 def commands(name: str) -> list[list[str]]:
     """The commands of a run, by the Python or the `driveblocks` of this environment."""
-    given = {"SEED": str(random.randrange(10**9)), "TIMES": "4", "FIRST": "0", "SECONDS": "3600"} | dict(os.environ)
+    given = {"SEED": str(random.randrange(10**9)), "TIMES": "4", "FIRST": "0", "PART": "1", "SECONDS": "3600"} | dict(
+        os.environ
+    )
     found = [shlex.split(text.format_map(given)) for text in RUNS[name].modules]
     product = str(Path(sys.executable).with_name("driveblocks"))
     return [[product, *words[1:]] if words[0] == "driveblocks" else [sys.executable, "-m", *words] for words in found]

@@ -57,6 +57,7 @@ def judged(names: Iterable[str], judge: Callable[[str], Judged], jobs: int, stor
         for one in pool.map(judge, [each for each in wanted if each not in known], chunksize=4):
             found.append(one)
             if store:
+                store.parent.mkdir(parents=True, exist_ok=True)
                 with store.open("a", encoding="utf-8") as file:
                     file.write(json.dumps(asdict(one)) + "\n")
             if one.told:

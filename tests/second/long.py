@@ -1,5 +1,7 @@
 """The matrix at length, `make long WHAT=matrix`: `python -m tests.second.long [--times N] [--only WORDS] [--walks N]`.
 
+With `--store FILE` it goes on where it was ended; `--part 1` to `--part 4` are the walks of 90 minutes each.
+
 Every cell this many times, each time with other options, other moments and, every second time, a second event on the
 heels of the first; then random walks with the same judge. On matiec where it is found, else on the embedded engine; in
 two processes. Prints each failure, then the table of cells by the rule that broke first; exit status 1 where one fails.
@@ -7,11 +9,14 @@ two processes. Prints each failure, then the table of cells by the rule that bro
 
 import argparse
 import gc
+import json
 import sys
 from collections import Counter, defaultdict
 from collections.abc import Sequence
-from concurrent.futures import ProcessPoolExecutor
+from concurrent.futures import Future, ProcessPoolExecutor, as_completed
+from dataclasses import asdict
 from functools import cache
+from pathlib import Path
 
 from tests.second.matrix import MODES, STATES, Cell, Outcome, cells, run
 from tests.second.station import built
@@ -22,6 +27,8 @@ from structured_text.engines.engine import Engine, Library
 
 JOBS = 2
 CHUNK = 28
+PART = 2800
+"""Walks of a part, with seeds of its own."""
 SHORT = {"full control": "full", "SpeedOnly": "speed", "MonitorOnly": "monitor"}
 
 
@@ -80,21 +87,43 @@ def main() -> int:
     parser.add_argument("--first", type=int, default=0, help="the first seed")
     parser.add_argument("--only", default="", help="cells whose name holds these words")
     parser.add_argument("--walks", type=int, default=2000, help="random walks")
+    parser.add_argument("--part", type=int, default=0, help="1 to 4: walks alone, of other seeds in each part")
     parser.add_argument("--jobs", type=int, default=JOBS, help="processes")
+    parser.add_argument("--store", type=Path, help="what is done; it is not run again")
     options = parser.parse_args()
     stations()  # compiled once, for all processes
-    chosen = [each for each in cells() if options.only in str(each)]
+    chosen = [each for each in cells() if options.only in str(each)] if not options.part else []
     parts = [chosen[at : at + CHUNK] for at in range(0, len(chosen), CHUNK)]
-    seeds = range(options.first, options.first + options.times)
-    outcomes = []
+    begin, number = (options.part * PART, PART) if options.part else (0, options.walks)
+    outcomes, known = _stored(options.store)
     with ProcessPoolExecutor(options.jobs) as pool:
-        waiting = [pool.submit(some, part, seed) for seed in seeds for part in parts]
-        waiting += [
-            pool.submit(walks, first, min(CHUNK, options.walks - first)) for first in range(0, options.walks, CHUNK)
-        ]
-        for each in waiting:
+        waiting: dict[Future[list[Outcome]], str] = {}
+        for seed in range(options.first, options.first + options.times):
+            for at, part in enumerate(parts):
+                if (name := f"cells {options.only} {at} {seed}") not in known:
+                    waiting[pool.submit(some, part, seed)] = name
+        for first in range(begin, begin + number, CHUNK):
+            count = min(CHUNK, begin + number - first)
+            if (name := f"walks {first} {count}") not in known:
+                waiting[pool.submit(walks, first, count)] = name
+        for each in as_completed(waiting):
             outcomes += each.result()
+            _store(options.store, waiting[each], each.result())
     return report(outcomes)
+
+
+def _stored(place: Path | None) -> tuple[list[Outcome], set[str]]:
+    """What was done, and the names of it."""
+    rows = [json.loads(row) for row in place.read_text("utf-8").splitlines()] if place and place.exists() else []
+    found = [Outcome(**{**each, "cell": Cell(**each["cell"])}) for row in rows for each in row["outcomes"]]
+    return found, {row["name"] for row in rows}
+
+
+def _store(place: Path | None, name: str, outcomes: Sequence[Outcome]) -> None:
+    if place:
+        place.parent.mkdir(parents=True, exist_ok=True)
+        with place.open("a", encoding="utf-8") as file:
+            file.write(json.dumps({"name": name, "outcomes": [asdict(each) for each in outcomes]}) + "\n")
 
 
 def report(outcomes: Sequence[Outcome]) -> int:
