@@ -76,6 +76,19 @@ def test_a_request_counts_though_one_of_ours_is_handed_to_the_port_meanwhile(asc
     assert bench["ForeignFrames"] == 1
 
 
+def test_a_read_waits_until_the_unit_has_answered_another_master() -> None:
+    """Both replies were mixed up for many reads: none proved anything. It waits for a turn-round at most."""
+    bench = Bench(Config(drives=1, turn_ms=50, longest_ms=50))
+    bench.put(0, PollEveryMs=500)
+    idle(bench.ready())
+    while not bench.run(10):
+        pass
+    bench.run(490)
+    bench.foreign(bytes([1, *REQUEST[1:]]))
+    assert not bench.run(40)
+    assert bench.run(100)
+
+
 @pytest.mark.parametrize("kind", ["Begins", "a reference"])
 def test_only_what_starts_a_motor_or_resets_its_fault_is_kept_back(kind: str) -> None:
     """The reference of a running motor passes."""

@@ -170,10 +170,9 @@ def _stale() -> Iterator[Step]:
 def _follow(drive: Drive) -> Iterator[Step]:
     """Each state on the way to a run is proved first. The time is at least that of two reads in turn."""
     run = next(one for one in drive.operation.commands if one.does == "run_forward")
-    states = sum(step.until is not None for step in run.first)
     ignored: Shows = {"Fate.Local": True, "RunForward": True, "Pins.Settings.FollowWithinMs": 1000}
     yield Step("it does nothing", MS | ignored, why("NOT_FOLLOWED"), 30000, {
-        "Slots[0].ReadMs <= 500": True, ".WaitedMs": _after(1005, 1080 + 30 * states),
+        "Slots[0].ReadMs <= 500": True, ".WaitedMs": _after(1005, 1080 + 80 * len(run.first)),
     })  # fmt: skip
 
 
