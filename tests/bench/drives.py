@@ -53,7 +53,7 @@ class Scans:
             bench.until(lambda drive=drive: bench.out("Ready", drive), 12_000)  # type: ignore[misc]  # a default
             bench.put(drive, RunForward=True)
         bench.until(lambda: all(bench.out("AtSpeed", drive) for drive in range(drives)), 20_000)
-        bench.until(lambda: bench.block["TheLine.Phase"], 1000)
+        bench.until(lambda: bench.block["TheLine.Exchange.Phase"], 1000)
         if not isinstance(bench.block, MatiecInstance):
             raise EngineError(f"{name_of(types)} is not timed on this engine")
         self.block, self.drives, self.rounds = bench.block, drives, rounds

@@ -17,11 +17,11 @@ from structured_text.engines.engine import Source, Value
 WIDTHS = {"BOOL": 1, "BYTE": 1, "USINT": 1, "WORD": 2, "UINT": 2, "INT": 2, "DINT": 4, "UDINT": 4, "REAL": 4}
 TYPES = {
     "MB_Adu": 256, "MB_Chars": 513, "MB_Words": 250, "MB_Registers": 1026, "MB_Request": 12,
-    "MB_LineFrame": 40, "MB_RxRing": 256, "MB_Port": 355, "MB_Words4": 8, "MB_Words16": 32, "MB_Ask": 19, "MB_Asks": 76,
-    "MB_Answer": 6, "MB_Answers": 24, "MB_Slot": 251, "MB_Slots8": 8 * 251, "MB_Slots32": 32 * 251,
-    "MB_StopTrack": 13, "MB_StopCopy": 12, "MB_Track": 49, "MB_Tracks8": 8 * 49, "MB_Tracks32": 32 * 49, "MB_Open": 33,
-    "MB_Talk": 36, "MB_Times": 50, "MB_Next": 33, "MB_Scan": 14, "MB_SlotNow": 23, "MB_Heard": 81, "MB_Sums": 27,
-    "VFD_Settings": 42, "VFD_Diagnosis": 140, "VFD_Asked": 13, "VFD_Seen": 32,
+    "MB_LineFrame": 40, "MB_RxRing": 256, "MB_Port": 356, "MB_Words4": 8, "MB_Words16": 32, "MB_Ask": 19,
+    "MB_Asks": 76, "MB_Answer": 6, "MB_Answers": 24, "MB_Slot": 254, "MB_StopTrack": 13, "MB_StopCopy": 15,
+    "MB_Track": 76, "MB_Given": 24, "MB_Heard": 81, "MB_Sums": 47, "MB_Slots8": 8 * 254, "MB_Slots2": 2 * 254,
+    "MB_Slots32": 32 * 254, "MB_Tracks8": 8 * 76, "MB_Tracks2": 2 * 76, "MB_Tracks32": 32 * 76, "VFD_Settings": 42,
+    "VFD_Diagnosis": 140, "VFD_Asked": 13, "VFD_Seen": 34,
 }  # fmt: skip
 """ABI 1, typed by hand: 256 bytes; 513 characters; 125 words; 513 words; six fields of two bytes;
 the line's; the drive blocks'."""
@@ -104,9 +104,11 @@ WORST: dict[str, dict[str, Value]] = {
 """Pins with which a block turns as often as it can."""
 
 SLACK = {
-    "MB_AsciiDecode": 1, "MB_Frame": 3, "SN300G5_FaultNumber": 32, "GD200A_Request": 1, "ATV312_Request": 23, "MX2_Request": 11,
+    "MB_AsciiDecode": 1, "MB_Frame": 3, "SN300G5_FaultNumber": 32, "GD200A_Request": 1, "ATV312_Request": 23,
+    "MX2_Request": 11,
 }  # fmt: skip
-"""Turns that the stated bound has to spare: the LRC is not summed with itself; a request of a line has fewer bytes; bits that no fault has are masked;
+"""Turns that the stated bound has to spare: the LRC is not summed with itself; a request of a line has fewer bytes;
+bits that no fault has are masked;
 no more registers that can be written are side by side."""
 
 

@@ -63,6 +63,19 @@ def test_more_than_the_most_in_ten_seconds(most: int, limit: int) -> None:
     assert bench["ForeignFrames"] == 0
 
 
+@pytest.mark.parametrize("ascii_", [False, True])
+def test_a_request_counts_though_one_of_ours_is_handed_to_the_port_meanwhile(ascii_: bool) -> None:
+    """It had begun, and its first characters were forgotten."""
+    bench = Bench(Config(drives=1, ascii=ascii_, rate=4800))
+    bench.put(0, PollEveryMs=500)
+    bench.ready()
+    idle(bench).foreign(REQUEST)
+    bench.drives[0].alive = False
+    bench.stop(0)
+    bench.run(60)
+    assert bench["ForeignFrames"] == 1
+
+
 @pytest.mark.parametrize("kind", ["Begins", "a reference"])
 def test_only_what_starts_a_motor_or_resets_its_fault_is_kept_back(kind: str) -> None:
     """The reference of a running motor passes."""

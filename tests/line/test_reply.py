@@ -258,10 +258,10 @@ def test_a_new_address_ends_no_wait_for_anothers_late_reply() -> None:
     bench.put(0, LongestMs=1000)
     bench.put(1, StopConfirmed=True)
     asked_late(bench, 255)
-    while not bench["Times.DrainMs"]:
+    while not bench["Track[0].WaitMs"]:
         bench.scan()
     bench.stop(1)
-    while (bench["Slot"], bench["Phase"]) != (1, 2):
+    while (bench["OpenSlot"], bench["Exchange.Phase"]) != (1, 2):
         bench.scan()
     bench.put(1, UnitAddress=9)
     bench.scan()

@@ -188,7 +188,7 @@ def test_a_unit_that_is_taken_out_while_it_may_turn_stays_in_the_figures() -> No
 
 
 def test_a_slot_that_waits_for_the_line_is_looked_at_in_the_same_call() -> None:
-    """A slot at rest is left out of most calls; the proofs of its stops take for granted that such a one asks nothing."""
+    """A slot at rest is left out of most calls; the proofs of its stops take for granted that it asks nothing."""
     bench = Bench(Config(drives=3)).ready()
     for number in range(200):
         if number % 7 == 0:

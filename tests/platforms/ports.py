@@ -173,7 +173,7 @@ class Maker:
             yield Source.read(HERE / "siemens" / "instructions.st")
         else:
             yield Source.read(HERE / "com.st")
-        port, line = [name for name in parts if not name.endswith("32")]
+        port, line = [name for name in parts if not name.endswith(("Line2", "Line32"))]
         yield from (Source(name, parts[name]) for name in (port, line))
         shared = {"buffers": self.buffers, "more": self.more}
         yield Source("X_Alone", ALONE.format(port=port, pins=self.pins, **shared))

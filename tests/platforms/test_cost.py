@@ -65,7 +65,7 @@ def test_the_families_say_how_many_bytes_one_drive_takes() -> None:
 
 @pytest.mark.parametrize(("slots", "drives"), [(2, 1), (8, 4), (8, 8)])
 def test_the_page_of_memory_says_how_many_bytes_a_line_takes(slots: int, drives: int) -> None:
-    row = next(row for row in PAGE.read_text("utf-8").splitlines() if "references" in row)
+    row = next(row for row in PAGE.read_text("utf-8").splitlines() if row.startswith("| data where in-outs"))
     said = int(row.split(" | ")[{1: 1, 4: 2, 8: 3}[drives]].strip(" |").replace(",", ""))
     buffers = size_of("MB_Adu") + size_of("MB_LineFrame") + slots * size_of("MB_Slot")
     assert said == pytest.approx(kept(f"MB_ByteLine{slots}") + buffers + drives * kept("PF4_Drive"), rel=0.05)

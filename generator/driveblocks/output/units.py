@@ -10,7 +10,9 @@ from driveblocks.testing.suite import drive_suite, shared_suite
 from driveblocks.testing.unit import Unit
 from structured_text.engines.engine import Source as Text
 
-OTHERS = tuple(f"/MB_{line}{slots}.st" for line in ("Line", "ByteLine") for slots in library.LINE_SIZES if slots != library.USUAL)
+OTHERS = tuple(
+    f"/MB_{line}{slots}.st" for line in ("Line", "ByteLine") for slots in library.LINE_SIZES if slots != library.USUAL
+)
 """Shared blocks that no test of a drive needs: their statements are those of the line for 8 drives."""
 
 

@@ -6,7 +6,7 @@ from driveblocks.render.library import CHINESE, FRAMES, LINE2, LINE32, METER, PA
 from structured_text.language.tree import Block, FunctionBlock, VarKind
 from structured_text.language.types import UNKNOWN, Type
 
-CODE_KIB = {"": 87, LINE2: 29, LINE32: 29, PARAMETERS: 11, METER: 4, FRAMES: 12, CHINESE: 16}
+CODE_KIB = {"": 104, LINE2: 16, LINE32: 16, PARAMETERS: 11, METER: 4, FRAMES: 12, CHINESE: 16}
 """By extra, KiB of code that it adds to what it needs. A test that needs matiec measures it."""
 FAMILY_KIB = (16, 43)
 """The same of the smallest and the largest family, without its extras."""

@@ -20,11 +20,11 @@ def adapter(platform: str, languages: list[Language]) -> Iterator[File]:
     if one.prefix == "MB":
         return
     yield File(platform, f"{one.prefix}_Port", render(f"{platform}/{one.prefix}_Port.st.j2", where=one.where))
-    for slots in LINE_SIZES:
+    for slots, extra in LINE_SIZES.items():
         bits = "Bits" if one.parity else "CharacterBits"
         values = {"slots": slots, "where": one.where, "busy": one.busy, "bits": bits}
         line = render(f"{platform}/{one.line}.st.j2", **values, **texts_of(languages))
-        yield File(platform, f"{one.line}{slots}", line, LINE_SIZES[slots])
+        yield File(platform, f"{one.line}{slots}", line, extra)
 
 
 def first_motor(platform: str, drive: Drive) -> File:

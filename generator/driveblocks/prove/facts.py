@@ -244,6 +244,13 @@ def _settings_reads(drive: Drive) -> list[int]:
     return [number for number, poll in numbered if wanted & set(range(poll.address, poll.address + poll.words))]
 
 
+def _verifying(drive: Drive) -> list[int]:
+    """The numbers of the polls that bring a setting that is compared."""
+    wanted = {one.register for one in drive.operation.reference.verify}
+    numbered = enumerate(polls(drive), 1)
+    return [number for number, poll in numbered if wanted & set(range(poll.address, poll.address + poll.words))]
+
+
 def _settings(drive: Drive) -> str:
     """When all of them were answered."""
     brings = _settings_reads(drive)
@@ -281,6 +288,7 @@ def _shown(drive: Drive) -> dict[str, str]:
         "ready_shown": f"(CommOk AND ({_any(ready)}))" if ready else "TRUE",
         "verified": _every(word for _, word in verify),
         "settings_since": _every(f"Reads.Sure{number}" for number in _settings_reads(drive)),
+        "settings_seen": _every(f"Reads.Since{number}" for number in _verifying(drive)) if verify else "FALSE",
         "settled_read": "(NOT Settled.Proved OR Reads.SettingsRead)" if _settings_reads(drive) else "TRUE",
         "settings_said": _every(f"({decoded}) = ({word})" for decoded, word in verify),
         "said": _every(said),

@@ -117,9 +117,9 @@ def _line_blocks(languages: list[Language]) -> Iterator[File]:
 
 def _sized(folder: str, name: str, languages: list[Language]) -> Iterator[File]:
     """One type or block for each number of slots."""
-    for slots in LINE_SIZES:
+    for slots, extra in LINE_SIZES.items():
         rendered = render(f"line/{name}.st.j2", slots=slots, **texts_of(languages))
-        yield File(folder, f"{name}{slots}", rendered, LINE_SIZES[slots])
+        yield File(folder, f"{name}{slots}", rendered, extra)
 
 
 def drive(stem: str, drive: Drive, languages: list[Language]) -> Iterator[File]:

@@ -173,7 +173,7 @@ def _follow(drive: Drive) -> Iterator[Step]:
     states = sum(step.until is not None for step in run.first)
     ignored: Shows = {"Fate.Local": True, "RunForward": True, "Pins.Settings.FollowWithinMs": 1000}
     yield Step("it does nothing", MS | ignored, why("NOT_FOLLOWED"), 30000, {
-        "Slots[0].ReadMs <= 500": True, ".WaitedMs": _after(1005, 1050 + 30 * states),
+        "Slots[0].ReadMs <= 500": True, ".WaitedMs": _after(1005, 1080 + 30 * states),
     })  # fmt: skip
 
 

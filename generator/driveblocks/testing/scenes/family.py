@@ -28,7 +28,9 @@ def parts(drive: Drive) -> dict[str, Any]:
     """Of the two blocks their inputs and calls."""
     verify = "Verify? " if _reads_of(drive)["verify"] else ""
     step = "StepNumber# " if _several(drive) else ""
-    inputs = f"Anew? Reread? Forget? {verify}LongestMs# StaleMs# PassedMs# Fresh? Surplus#USINT Entry# Count#USINT Turn# Words=Fetched"
+    times = "LongestMs# StaleMs# PassedMs#"
+    reply = "Fresh? Surplus#USINT Entry# Count#USINT"
+    inputs = f"Anew? Reread? Forget? {verify}{times} {reply} Turn# Words=Fetched"
     return {
         f"{drive.prefix}_Reads": {"inputs": inputs, "calls": [*_reads(drive), ["turns"], *_turns(drive)]},
         f"{drive.prefix}_Orders": {"inputs": f"Order# {step}ReferenceWord~", "calls": list(_orders(drive))},

@@ -14,7 +14,7 @@ CALLS = (
     "Reads := Seen.Reads - Marks[1];",
     "Writes := Seen.Writes - Marks[2];",
     "OtherReads := OtherSeen.Reads - Marks[3];",
-    "Twice := 2 * OtherReads;",
+    "Thrice := 3 * OtherReads;",
     "IF Mute THEN",
     "  Fate.Dumb := Slots[0].ResetAsked AND (Slots[0].Ask[1].Number <> Slots[0].Answer[1].Number);",
     "END_IF;",
@@ -27,7 +27,7 @@ COUNTS = {
     "Marks": ("VFD_TestTimes", "counts of before"),
     "Flaps": ("BOOL", "every other reply is lost"),
     "Both": ("UINT", "requests that the drive has heard"),
-    "Twice": ("UINT", "OtherReads two times"),
+    "Thrice": ("UINT", "OtherReads three times"),
     "Mute": ("BOOL", "replies to fault resets are lost"),
     "Stops": ("UINT", "stops that the drive has heard since, so are the next"),
     "Reads": ("UINT", "reads"),
@@ -206,8 +206,9 @@ def _costs(can: Ability) -> Iterator[Step]:
     yield Step("one is dead", {"Fate.Cut": True}, "NOT Slots[0].Online", 4000, {"Other.CommOk": True})
     yield Step("it is left alone", {}, ms=1000, shows={"Other.CommOk": True})
     begin: Shows = FROM_HERE | {".Mark": "OtherReads"}
+    # where all of its reads are of one length it is read in every other scan
     yield Step("the other has the wire to itself", begin, ms=2000, shows={
-        "Twice > Mark": True, ".OtherReads": (20, 200), "Bus.OnlineCount": 1, "Bus.AllOnline": False,
+        "Thrice > Mark": True, ".OtherReads": (20, 200), "Bus.OnlineCount": 1, "Bus.AllOnline": False,
     })  # fmt: skip
     yield Step("it answers again", {"Fate.Cut": False}, "Bus.OnlineCount = 2", 9000, {"Other.CommOk": True})
 
@@ -235,7 +236,7 @@ def _two_dead(can: Ability) -> Iterator[Step]:
     yield Step("a second drive block", other, "Other.Ready", 4000)
     yield Step("both run", {"Pins.OtherRuns": True}, "OtherSeen.Milli >= 19800", 4000, RUNNING)
     yield Step("both cables are cut", {"Fate.Cut": True, "OtherFate.Cut": True}, "Bus.OnlineCount = 0", 4000, {
-        "(WaitedMs >= 900) AND (WaitedMs <= Bus.CutToContactMs)": True,
+        "(WaitedMs >= 850) AND (WaitedMs <= Bus.CutToContactMs)": True,
     })  # fmt: skip
     yield Step("both stops are overdue", {}, "Motor.StopOverdue AND Other.StopOverdue", 4000)
     whole: Shows = {"Fate.Cut": False, "OtherFate.Cut": False}

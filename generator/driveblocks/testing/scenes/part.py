@@ -32,7 +32,8 @@ VARIABLES = {
     "Said": ("MB_Answer", "the answer to a stop"),
     "Told": ("MB_Answer", "the answer to a command"),
     "Trail": ("MB_StopTrack", "what is kept about a stop"),
-    "Ear": ("MB_LineFrame", "a reply"),
+    "Ear": ("MB_LineFrame", "characters of a frame"),
+    "Written": ("MB_Words4", "what is written"),
     "Count": ("UDINT", "what a user keeps"),
     "Preset": ("VFD_Settings", "settings"),
     "Call": ("MB_Open", "a request"),
@@ -143,8 +144,11 @@ def _each(rows: Iterable[Any], *, port: bool) -> Iterator[tuple[str, Mapping[str
     for words, gets, shows, *more in rows:
         given: list[dict[str, Any]] = [{}]
         for one in more:
-            octets = [] if isinstance(one, int) else [int(each, 16) for each in one.split()]
-            given = [_received(octets)] if port else [{"Character": each} for each in octets] or one * [gets]
+            if isinstance(one, int):
+                given = one * [gets]
+                continue
+            octets = [int(each, 16) for each in one.split()]
+            given = [_received(octets)] if port else [{"Character": each} for each in octets]
         for at, each in enumerate(given):
             yield words, (each if at else gets | each), (shows if at + 1 == len(given) else {})
 
