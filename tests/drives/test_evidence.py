@@ -9,7 +9,7 @@ from tests.drives.words import sent, stops
 from tests.second.line import Bench
 from tests.second.station import MIXED
 
-LONGEST_MS = 60
+LONGEST_MS, TURN_ROUND_MS = 60, 20
 """As the bench sets it."""
 
 
@@ -64,7 +64,7 @@ def test_doubtful_reads_prove_no_standstill_and_say_why(kind: str) -> None:
 
 
 def test_replies_in_excess_prove_no_standstill() -> None:
-    bench = surplus(acknowledged(Bench("CHF").running()), LONGEST_MS)
+    bench = surplus(acknowledged(Bench("CHF").running()), TURN_ROUND_MS)
     bench.run(9000)
     assert not bench.shows("StopConfirmed")
     assert bench.reason() == "UNPROVED"

@@ -212,7 +212,7 @@ def _not_stored(drive: Drive) -> Iterator[Step]:
     yield Step("it is well", {"Fate.RefusesWrites": False}, ms=50, shows=nothing)
     yield from does("Storer", 0, "Error", error("Storer", "TOO_SOON") | nothing)
     yield from _minute()
-    lost: Shows = {"Fate.Skips": True, "Fate.Skipped": word(mark(drive.storage.register))}
+    lost: Shows = {"Fate.Skips": True, "Fate.Skipped": word(mark(drive.storage.register or 0))}
     yield Step("its answers are lost", lost | {"Pins.ParameterRetries": 200}, ms=20, shows=nothing)
     yield from does("Storer", 0, "Error", error("Storer", "SILENCE"), Within=600)
     yield Step("it answers", {"Fate.Skips": False, ".Within": WITHIN_MS}, "Motor.Ready", 2000)
