@@ -106,7 +106,7 @@ class Cache:
             make(folder)
             put(folder / SEAL, json.dumps(_digests(folder)), new=True, sync=False)
             for file in folder.iterdir():
-                file.chmod(0o600)
+                file.chmod(file.stat().st_mode & 0o700)  # a program stays one
             folder.rename(final)
         except OSError:
             if not self._is_good(final):  # else another process was quicker, and its entry is as good
