@@ -67,7 +67,7 @@ def test_every_step_of_the_front_end_is_measured() -> None:
 
 
 def test_drive_blocks_run_while_they_are_timed(matiec: MatiecEngine, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(drives, "FAMILIES", ("JSCC",))
+    monkeypatch.setattr(drives, "MIXED", ("JSCC",))
     rows = drives.measure([matiec], rounds=1)
     assert set(rows) == {"JSCC_Drive", drives.LINE, drives.SLOT}
     assert rows["JSCC_Drive"][f"{matiec.name} ns of eight and the line"] > 0
