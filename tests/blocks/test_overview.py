@@ -165,7 +165,7 @@ def test_blocks_without_loops_have_none_inside(block: str) -> None:
 
 
 def test_every_block_with_loops_is_tried_at_its_worst() -> None:
-    lines = {f"MB_{kind}{slots}" for kind in ("Line", "ByteLine") for slots in (8, 32)}  # tests/line/test_text.py
+    lines = {f"MB_{kind}{slots}" for kind in ("Line", "ByteLine") for slots in (2, 8, 32)}  # tests/line/test_text.py
     lines |= {"MB_Exchange", "MB_Sending", "MB_ReadsMs"}  # in a line
     lines.add("MB_Float")  # a function: tests/line/test_float.py
     assert {name for name, (_, _, loops) in ROWS.items() if loops != "none"} - set(DRIVES) == set(WORST) | lines

@@ -1,4 +1,4 @@
-"""The text of the line: both sizes are one, and no call exceeds the loops that its head states."""
+"""The text of the line: all sizes are one, and no call exceeds the loops that its head states."""
 
 import re
 
@@ -9,12 +9,18 @@ from structured_text.engines.embedded import EmbeddedEngine
 from structured_text.engines.embedded.library import EmbeddedLibrary
 
 
-def test_both_sizes_are_one_text() -> None:
+SLOTS = (2, 8, 32)
+"""The sizes of a line."""
+
+
+def test_all_sizes_are_one_text() -> None:
+    """They differ only in the number of slots and in its double."""
     texts = {each.path: each.text for each in sources()}
     for block in ("Line", "ByteLine"):
-        small, large = texts[f"line/MB_{block}8.st"], texts[f"line/MB_{block}32.st"]
-        bodies = [re.sub(" +", " ", text.partition("END_VAR")[2].replace("32", "8")) for text in (small, large)]
-        assert bodies[0] == bodies[1]
+        bodies = [texts[f"line/MB_{block}{slots}.st"].partition("END_VAR")[2] for slots in SLOTS]
+        pieces = [re.split(r"(\d+)", re.sub(" +", " ", body)) for body in bodies]
+        found = {row for row in zip(*pieces, strict=True) if len(set(row)) > 1}
+        assert found <= {tuple(str(times * slots) for slots in SLOTS) for times in (1, 2)}
 
 
 def test_no_call_exceeds_the_loops_that_its_head_states() -> None:
