@@ -23,7 +23,7 @@ def line(*words: str, columns: int = 80) -> Result:
 
 @pytest.mark.parametrize("columns", [80, 120])
 def test_tables_fit_and_name_what_does_not_hold(columns: int) -> None:
-    names = "chf@1", "sn300g5@2", "jscc", "--device", "2", "--watchdog", "6s", "--stop-within"
+    names = "chf@1", "sn300g5@2", "jscc", "--device", "2", "--watchdog", "12s", "--stop-within"
     good, bad = (line(*names, within, columns=columns) for within in ("500ms", "150ms"))
     assert (good.exit_code, bad.exit_code) == (0, 1)
     assert max(map(cell_len, good.stdout.splitlines())) <= columns
@@ -90,9 +90,9 @@ def test_a_line_that_is_too_slow_for_its_drives_says_so_with_both_figures(drives
 
 def test_what_feeds_a_watchdog_may_wait_for_two_thirds_of_its_time() -> None:
     words = "chf", "chf", "chf", "--rate", "19200", "--watchdog"
-    fed = [json.loads(line(*words, time, "--json").stdout)["rates"][4]["units"][0] for time in ("2s", "4s")]
-    assert [each["watchdog_margin"] for each in fed] == [2 * ms // 3 - fed[0]["worst_feed"] for ms in (2000, 4000)]
-    bad, good = (line(*words, time, columns=100) for time in ("2s", "4s"))
+    fed = [json.loads(line(*words, time, "--json").stdout)["rates"][4]["units"][0] for time in ("2s", "6s")]
+    assert [each["watchdog_margin"] for each in fed] == [2 * ms // 3 - fed[0]["worst_feed"] for ms in (2000, 6000)]
+    bad, good = (line(*words, time, columns=100) for time in ("2s", "6s"))
     assert (bad.exit_code, good.exit_code) == (1, 0)
     said = f"may wait {fed[0]['worst_feed']} ms, more than two thirds of 2000 ms: it may trip. What helps:"
     assert f"What feeds the watchdog of CHF_1 (1), CHF_2 (2), CHF_3 (3) {said}" in " ".join(bad.stdout.split())

@@ -8,7 +8,6 @@ from tests.line.vline import Bench, line_sources
 from structured_text.engines.embedded import EmbeddedEngine
 from structured_text.engines.embedded.library import EmbeddedLibrary
 
-
 SLOTS = (2, 8, 32)
 """The sizes of a line."""
 

@@ -320,7 +320,7 @@ def test_a_module_whose_receiver_stays_broken_is_reset_by_edges() -> None:
 def test_the_first_motor_speaks_to_its_drive() -> None:
     for drive in checks.shelf().drives.values():
         motor = running().instance(f"{drive.prefix}_Motor")
-        for _ in range(50):
+        for _ in range(200):
             motor["Bus.Port.Meter"] = 0.01
             motor.scan()
         assert motor["Bus.ElapsedMs"] == 10
