@@ -133,8 +133,19 @@ def test_a_drive_that_takes_another_unit_address_has_lost_its_permission() -> No
 
 
 def test_a_unit_address_that_two_maps_claim_gets_reads_only() -> None:
-    text = EXAMPLE.read_text(encoding="utf-8").replace("Address := 2", "Address := 3")
-    desk = Desk(text, [SimulatedDrive(MAPS["CHF"], 3)], frozenset({(3, "Fan"), (3, "Pump2")}))
-    desk.scan(3000)
+    """The line would still stop a motor through the drive block that moved it."""
+    text = EXAMPLE.read_text(encoding="utf-8").replace("Address := 2", "Address := Unit")
+    text = text.replace("  Setting :", "  Unit : USINT := 2;\n  Setting :")
+    drives = [SimulatedDrive(each, unit) for unit, each in UNITS.items()]
+    desk = Desk(text, drives, frozenset({(3, "Fan"), (3, "Pump2")}))
+    desk.scan(10000)
+    desk.instance["FanHertz"], desk.instance["FanOn"] = 20.0, True
+    desk.scan(5000)
+    assert desk.drives[2].mode == "running"
+    assert not desk.controller.dropped
+    desk.instance["Unit"] = 3
+    desk.scan(20)
+    desk.line.sent.clear()
+    desk.scan(2000)
     assert {frame[1] for frame in desk.line.sent if frame[0] == 3} <= {3}
     assert desk.controller.dropped.keys() == {"write to 1000H of unit 3"}
