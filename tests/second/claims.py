@@ -189,7 +189,8 @@ class Claims:
         writes = body[1] in (5, 6, 16)
         self._kept(index, body)
         taken = self._taken(index) and now_us - claim.changed_us > ATTEND_US
-        mixed = pins.get("Doubled") and bool(self.bench.pins[1:]) and self.bench.pins[1].get("Doubled")
+        others = self.bench.metered or any(each.get("Doubled") for each in self.bench.pins[1:2])
+        mixed = pins.get("Doubled") and others  # of several families the first is read on
         if taken and not mixed and not writes and index + 1 not in self.bench.deaf:
             self._once(index, "barred", bad=True, seen=(body.hex(),))
         if writes:
