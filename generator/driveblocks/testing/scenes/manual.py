@@ -69,7 +69,8 @@ def _asked(drive: Drive, frame: Frame, means: Means) -> Iterator[Step]:
     slot: Shows = {
         "Pins.NoDrive": True, "Pins.Others": 100, "Pins.Ascii": frame.mode == "ascii", "Fate.Unit": means.unit,
         "Slots[0].UnitAddress": means.unit, "Slots[0].TurnRoundMs": 30, "Slots[0].LongestMs": 60,
-        "Slots[0].BootMs": 60000, "Slots[0].EndsByAnswer": True, "Slots[0].TwoByteCount": form.two_byte_count,
+        "Slots[0].BootMs": 60000, "Slots[0].EndsByAnswer": True, "Slots[0].EndsByRefusal": True,
+        "Slots[0].TwoByteCount": form.two_byte_count,
         "Slots[0].ExceptionAdd": 0 if form.address is not None else form.added,
         "Slots[0].ErrorFunction": form.function or 0, "Slots[0].ErrorAddress": word(form.address or 0),
         "Slots[0].Ask[3].FunctionCode": 3, "Slots[0].Ask[3].Address": word(min(readable(drive))),
