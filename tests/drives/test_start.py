@@ -23,7 +23,7 @@ def test_from_power_up_to_a_turning_motor_and_back(kind: str) -> None:
     bench.put(RunForward=False).stopped()
     assert bench.drives[0].mode == "standstill"
     assert bench.block["TheLine.Timeouts"] == 0
-    # LOW is told from CHF by a register that it refuses, twice
+    # LOW and CHF differ in a register that LOW refuses; it is read twice
     assert bench.block["TheLine.Refusals"] == (2 if kind == "LOW" else 0)
 
 
