@@ -26,7 +26,7 @@ def quiet(longest_ms: int = 30) -> Bench:
 
 def idle(bench: Bench) -> Bench:
     """Wait until nothing is open or near."""
-    while bench["Exchange.Phase"] or bench["Exchange.QuietMs"] < 30 or bench["Track[0].PauseMs"] < 100:
+    while bench["Exchange.Phase"] or bench["Exchange.QuietMs"] < 30 or bench["Track[0].Life.PauseMs"] < 100:
         bench.scan()
     return bench
 

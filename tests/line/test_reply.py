@@ -152,7 +152,7 @@ def test_frames_that_nobody_asked_for_are_counted(frame: bytes, counted: int, as
     bench.put(0, PollEveryMs=500)
     bench.ready().run(300)
     before = bench["ForeignFrames"]
-    while bench["Exchange.Phase"] or bench["Exchange.QuietMs"] < 100 or bench["Track[0].PauseMs"] < 200:
+    while bench["Exchange.Phase"] or bench["Exchange.QuietMs"] < 100 or bench["Track[0].Life.PauseMs"] < 200:
         bench.scan()
     bench.now += bench.chance.randrange(9000)  # so that it may be split between two scans
     bench.foreign(frame)
@@ -258,7 +258,7 @@ def test_a_new_address_ends_no_wait_for_anothers_late_reply() -> None:
     bench.put(0, LongestMs=1000)
     bench.put(1, StopConfirmed=True)
     asked_late(bench, 255)
-    while not bench["Track[0].WaitMs"]:
+    while not bench["Track[0].Life.WaitMs"]:
         bench.scan()
     bench.stop(1)
     while (bench["OpenSlot"], bench["Exchange.Phase"]) != (1, 2):

@@ -163,7 +163,7 @@ def test_figures_hold_while_a_request_is_open_that_waits_for_longer(how: dict[st
     bench.put(0, TurnRoundMs=500, StopConfirmed=True)
     bench.ready().run(500)
     bench.drives[0].alive = False
-    while not (bench["Track[0].Vain"] and bench["Exchange.Phase"] == 2):
+    while not (bench["Track[0].Life.Vain"] and bench["Exchange.Phase"] == 2):
         bench.scan()
     bench.put(0, **how)
     bench.run(100)
@@ -200,7 +200,7 @@ def test_a_slot_that_waits_for_the_line_is_looked_at_in_the_same_call() -> None:
         waits = [slot for slot in range(3) if not all(bench.answer(slot, box) for box in (STOP, COMMAND))]
         rest = [slot for slot in range(3) if bench[f"Track[{slot}].RestedMs"]]
         assert not set(rest) & set(waits)
-        assert all(bench[f"Track[{slot}].Reads"] for slot in rest if bench[f"Track[{slot}].PauseMs"] == 0)
+        assert all(bench[f"Track[{slot}].Reads"] for slot in rest if bench[f"Track[{slot}].Life.PauseMs"] == 0)
 
 
 def test_no_retry_of_a_command_is_sent_before_a_stop() -> None:

@@ -77,7 +77,7 @@ def test_the_copy_does_not_stand_in_for_the_stop_of_the_block_itself() -> None:
     bench.scan()
     assert bench["Track[1].Copy.Written"]
     for _ in range(20):
-        bench._alive[1] += bench["Track[1].AliveStep"]  # more calls each time
+        bench._alive[1] += bench["Track[1].Owner.AliveStep"]  # more calls each time
         bench.scan()
     assert not [each for each in bench.sent[-10:] if each.unit == 2 and not each.read]
     assert bench.slot(1, "LastErrorID") == 0

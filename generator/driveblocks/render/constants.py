@@ -67,6 +67,14 @@ NUMBERS = {
     "BARRED_DOUBLED": (6, "another slot has its unit address"),
     "BARRED_VERSION": (7, "its drive block is of another version"),
     "BARRED_LINE": (8, "a restart, or no time passes"),
+    # the compartments of a slot
+    "BOX_STOP": (0, "compartment of the stop"),
+    "BOX_COMMAND": (1, "compartment of the command"),
+    "BOX_PARAMETER": (2, "compartment of the parameter"),
+    "BOX_POLL": (3, "compartment of the poll"),
+    # events of MB_Life, beside how a request has ended
+    "LIFE_CALL": (0, "a call of the line"),
+    "LIFE_ANEW": (6, "another drive, or a restart: nothing of before holds"),
     # of two slots with one unit address
     "DOUBLED_NOT": (0, "no other slot has its unit address"),
     "DOUBLED_FIRST": (1, "another slot has taken its unit address"),
