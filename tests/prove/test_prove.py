@@ -17,11 +17,13 @@ from tests.shapes import texts, values
 from driveblocks.cli import app
 from driveblocks.maps import catalog, collection
 from driveblocks.maps.page import skeleton
-from driveblocks.prove import prover, report, rules
+from driveblocks.prove import archive, prover, report, rules
 from driveblocks.prove.facts import facts
 from driveblocks.prove.prover import Proved
 from driveblocks.prove.question import Verdict
+from driveblocks.testing.outcome import Result
 from structured_text.engines.embedded.engine import EmbeddedEngine
+from structured_text.engines.matiec.cache import Cache
 
 FAMILIES = tuple(path.stem for path in catalog.shipped())
 PAGE = Path(__file__).parents[2] / "docs" / "prove.md"
@@ -41,7 +43,10 @@ def planted(old: str, new: str, block: str = "VFD_HardStop", of: str = "VFD_Hard
 @cache
 def everything() -> list[Proved]:
     """All proofs of what ships."""
-    return list(prover.run(shipped.sources()))
+    made = dict(prover.texts(shipped.sources()))
+    every = {each.path: each for some in made.values() for each in some}
+    subjects = {each.path.stem: rules.family(facts(each.drive)) for each in shipped.sources()}
+    return list(prover.proved(list(every.values()), {prover.GENERIC: rules.shared()} | subjects))
 
 
 def proofs() -> Iterator[tuple[str, prover.Proof]]:
@@ -92,13 +97,15 @@ def test_a_planted_mistake_comes_with_its_call() -> None:
     assert report.told(first) == "call by call: counterexample, replayed on the embedded engine"
     table = "\n".join(report.table(proved, first))
     assert "Overdue (input)          TRUE" in table
-    written = report.written([proved])
+    written = report.result(proved)
     assert not written.passed
-    assert any("Overdue (input)" in each.message for each in written.results[0].bad)
+    assert any("Overdue (input)" in each.message for each in written.bad)
 
 
 def test_the_command_says_so_by_its_status(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(prover, "run", lambda _: iter([planted("Overdue OR Restart", "Restart")]))
+    monkeypatch.setattr(
+        archive, "run", lambda _: iter([(report.result(planted("Overdue OR Restart", "Restart")), False)])
+    )
     xml = tmp_path / "proofs.xml"
     done = CliRunner().invoke(app, ["prove", "jscc", "--junit", str(xml), "--rules"])
     assert done.exit_code == 1
@@ -106,7 +113,7 @@ def test_the_command_says_so_by_its_status(tmp_path: Path, monkeypatch: pytest.M
     assert "proved: such an edge closes it (A16)" in done.output
     root = etree.parse(xml).getroot()
     assert int(root.attrib["failures"]) > 0
-    monkeypatch.setattr(prover, "run", lambda _: iter([planted("nothing", "")]))
+    monkeypatch.setattr(archive, "run", lambda _: iter([(report.result(planted("nothing", "")), True)]))
     assert CliRunner().invoke(app, ["prove", "jscc", "--junit", str(xml)]).exit_code == 0  # the file is its own
 
 
@@ -120,9 +127,9 @@ def test_the_commands_on_the_pages_run_and_say_that_all_is_proved(
     assert {"driveblocks prove", "driveblocks prove chf", "driveblocks prove jscc --rules"} < lines
     (tmp_path / "my_drive.yaml").write_text(skeleton(), "utf-8")
     monkeypatch.chdir(tmp_path)
-    known = everything()
+    known = [report.result(each) for each in everything()]
     monkeypatch.setattr(
-        prover, "run", lambda sources: of([prover.GENERIC, *(each.path.stem for each in sources)], known)
+        archive, "run", lambda sources: of([prover.GENERIC, *(each.path.stem for each in sources)], known)
     )
     for line in sorted(lines):
         done = CliRunner().invoke(app, line.split()[1:])
@@ -130,9 +137,27 @@ def test_the_commands_on_the_pages_run_and_say_that_all_is_proved(
     assert (tmp_path / "proofs.xml").is_file()
 
 
-def of(units: list[str], proofs: list[Proved]) -> Iterator[Proved]:
+def of(units: list[str], known: list[Result]) -> Iterator[tuple[Result, bool]]:
     """The proofs of some families."""
-    return (each for each in proofs if each.unit in units)
+    return ((each, False) for each in known if each.unit in units)
+
+
+def test_what_every_drive_shares_is_proved_once_for_the_same_text(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    shared = [each for each in rules.shared() if each.block in ("MB_Plus", "MB_Overdue")]
+    monkeypatch.setattr(rules, "shared", lambda: shared)
+    first, again = (list(archive.run([], Cache(tmp_path))) for _ in range(2))
+    assert [kept for _, kept in first] == [False, False]
+    assert again == [(each, True) for each, _ in first]
+    monkeypatch.setattr(archive, "resources", lambda _: tmp_path)
+    assert not any(kept for _, kept in archive.run([], Cache(tmp_path)))
+
+
+def test_what_is_not_proved_is_not_kept(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    broken = planted("Overdue OR Restart", "Restart")
+    monkeypatch.setattr(prover, "proved", lambda *_: iter([broken]))
+    assert [kept for _ in range(2) for _, kept in archive.run([], Cache(tmp_path))] == [False] * 4
 
 
 def test_without_the_solver_it_says_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:

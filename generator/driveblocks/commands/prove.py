@@ -10,7 +10,7 @@ import click
 from driveblocks.commands import JUNIT, MAPS, refuse, sources, write
 
 if TYPE_CHECKING:
-    from driveblocks.prove.prover import Proved
+    from driveblocks.testing.outcome import Result
 
 SHOWN = 5
 """Counterexamples that are printed whole; all are in the XML, if one is asked for."""
@@ -32,60 +32,49 @@ def run(maps: tuple[str, ...], junit: Path | None, rules: bool) -> None:
     """
     if find_spec("z3") is None:
         refuse("the solver is missing: pip install 'driveblocks[prove]'")
-    from driveblocks.prove import prover, report
+    from driveblocks.prove import archive
     from driveblocks.prove.sorts import UnsupportedError
     from driveblocks.testing import junit as xml
+    from driveblocks.testing.outcome import Run
     from structured_text.language.problems import SourceError
 
-    done: list[Proved] = []
+    done: list[Result] = []
     try:
-        for each in prover.run(sources(maps)):
-            _print(each, rules=rules)
+        for each, kept in archive.run(sources(maps)):
+            _print(each, kept=kept, rules=rules)
             done.append(each)
     except (UnsupportedError, SourceError) as error:
         refuse(f"cannot be proved: {error}")
     if junit is not None:
-        write(junit, xml.text(report.written(done)))
-    bad = _say(done)
-    sys.exit(1 if bad else 0)
+        write(junit, xml.text(Run(done, sum(each.seconds for each in done))))
+    _say(done)
+    sys.exit(0 if all(each.passed for each in done) else 1)
 
 
-def _print(proved: "Proved", *, rules: bool) -> None:
+def _print(result: "Result", *, kept: bool, rules: bool) -> None:
     """A line per block, or per rule; what is not proved always."""
-    from driveblocks.prove import report
-
-    found = report.sentences(proved)
-    bad = [words for words, proofs in found.items() if not all(each.good for each in proofs)]
+    bad = {each.scene: each.message.partition("\n")[0] for each in reversed(result.bad)}
     verdict = f"{len(bad)} not proved" if bad else "all proved"
-    count = f"{len(found)} rules, {len(proved.proofs)} questions"
-    click.echo(f"{proved.model.pou.name} ({proved.unit}): {count}: {verdict} in {proved.seconds:.1f} s")
-    for words, proofs in found.items():
+    count = f"{len(result.scenes)} rules, {len(result.outcomes)} questions"
+    when = "before, for the same text" if kept else f"in {result.seconds:.1f} s"
+    click.echo(f"{result.program} ({result.unit}): {count}: {verdict} {when}")
+    for words in result.scenes:
         if words in bad:
-            click.echo(f"  NOT PROVED: {words}")
-            for each in proofs:
-                if not each.good:
-                    click.echo(f"    {report.told(each)}")
+            click.echo(f"  NOT PROVED: {words}\n    {bad[words]}")
         elif rules:
-            of = proofs[0].answer.question.of
-            click.echo(f"  proved: {words}" + (f" ({of})" if of else ""))
+            click.echo(f"  proved: {words}")
 
 
-def _say(done: "list[Proved]") -> int:
-    """The counterexamples, then the sum of it all; how many are not proved."""
+def _say(done: "list[Result]") -> None:
+    """The counterexamples, then the sum of it all."""
     from textwrap import indent
 
-    from driveblocks.prove import report
-
-    bad = [(proved, each) for proved in done for each in proved.proofs if not each.good]
-    for proved, each in bad[:SHOWN]:
-        if lines := report.table(proved, each):
-            click.echo(f"{proved.model.pou.name}: {each.answer.question.words}\n  {report.told(each)}")
-            click.echo(indent("\n".join(lines), "    "))
-    proofs = [each for proved in done for each in proved.proofs]
-    calls = [each for each in proofs if each.call is not None]
-    free = sum(not each.replayed for each in calls if each.good)
+    bad = [(result, each) for result in done for each in result.bad]
+    for result, each in bad[:SHOWN]:
+        if "\n" in each.message:
+            click.echo(f"{result.program}: {each.scene}\n{indent(each.message, '    ')}")
+    premises, free = (sum(int(result.properties[at][1]) for result in done) for at in (0, 1))
     verdict = f"{len(bad)} not proved" if bad else "all proved"
-    seconds = sum(each.seconds for each in done)
-    click.echo(f"{len(calls)} premises run on the embedded engine, of which {free} rest on values that were left free")
-    click.echo(f"{len(proofs)} questions: {verdict} in {seconds:.1f} s")
-    return len(bad)
+    questions, seconds = (sum(len(each.outcomes) for each in done), sum(each.seconds for each in done))
+    click.echo(f"{premises} premises run on the embedded engine, of which {free} rest on values that were left free")
+    click.echo(f"{questions} questions: {verdict} in {seconds:.1f} s")

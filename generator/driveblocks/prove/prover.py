@@ -9,7 +9,6 @@ import z3
 from driveblocks.maps.collection import Source
 from driveblocks.prove import rules
 from driveblocks.prove.example import Values, least
-from driveblocks.prove.facts import facts
 from driveblocks.prove.model import Model, models
 from driveblocks.prove.operations import FREE
 from driveblocks.prove.question import Answer, Verdict, answers, questions
@@ -63,13 +62,6 @@ class Proved:
     model: Model
     proofs: tuple[Proof, ...]
     seconds: float
-
-
-def run(sources: Sequence[Source]) -> Iterator[Proved]:
-    """The shared blocks, then those of each drive. UnsupportedError, CheckError."""
-    every = {each.path: each for _, made in texts(sources) for each in made}
-    subjects = {each.path.stem: rules.family(facts(each.drive)) for each in sources}
-    yield from proved(list(every.values()), {GENERIC: rules.shared()} | subjects)
 
 
 def texts(sources: Sequence[Source]) -> Iterator[tuple[str, list[Text]]]:

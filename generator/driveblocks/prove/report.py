@@ -1,18 +1,20 @@
 """What was proved, in words: a line per rule, a counterexample as a table, and the results as they are written down."""
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 
 from driveblocks.prove.model import BEFORE
 from driveblocks.prove.prover import Proof, Proved
 from driveblocks.prove.question import CALLS, Verdict
 from driveblocks.prove.replay import Call
-from driveblocks.testing.outcome import ERROR, FAILED, PASSED, Outcome, Result, Run
+from driveblocks.testing.outcome import ERROR, FAILED, PASSED, Outcome, Result
 from structured_text.engines.engine import Value
 from structured_text.language.tree import VarKind
 
 ENGINE = "z3"
 REPLAYED, NOT_REPLAYED = "replayed on the embedded engine", "not replayed: it rests on values that were left free"
+PREMISES, LEFT_FREE = "premises run on the embedded engine", "of which rest on values that were left free"
+"""Properties of a result."""
 AGREE = "every result stays within its width, every index within its bounds, and no divisor is 0"
 """What is said of all that compilers have to agree on."""
 
@@ -66,17 +68,19 @@ def _shown(value: Value) -> str:
     return str(value).upper() if isinstance(value, bool) else str(value)
 
 
-def written(all_proved: Sequence[Proved]) -> Run:
-    """The results as the tests write theirs: a suite per block, a case per rule."""
-    results = [
-        Result(ENGINE, each.unit, each.model.pou.name, tuple(_outcomes(each)), each.seconds) for each in all_proved
-    ]
-    return Run(results, sum(each.seconds for each in all_proved))
+def result(proved: Proved) -> Result:
+    """A block's proofs as tests write theirs: a scene per rule, a check per question; premises are its properties."""
+    calls = [each for each in proved.proofs if each.call is not None]
+    free = sum(not each.replayed for each in calls if each.good)
+    premises = ((PREMISES, str(len(calls))), (LEFT_FREE, str(free)))
+    return Result(ENGINE, proved.unit, proved.model.pou.name, tuple(_outcomes(proved)), proved.seconds, premises)
 
 
 def _outcomes(proved: Proved) -> Iterator[Outcome]:
     for words, proofs in sentences(proved).items():
+        of = proofs[0].answer.question.of
         for each in proofs:
             status = PASSED if each.good else FAILED if each.answer.verdict is Verdict.BROKEN else ERROR
             message = "" if each.good else "\n".join([told(each), *table(proved, each)])
-            yield Outcome(each.answer.question.about or CALLS, status, message, scene=words)
+            about = each.answer.question.about or CALLS
+            yield Outcome(about, status, message, scene=f"{words} ({of})" if of else words)

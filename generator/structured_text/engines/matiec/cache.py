@@ -64,6 +64,11 @@ class Cache:
         self._trim(final)
         return final
 
+    def found(self, key: str) -> Path | None:
+        """Give the folder of `key`, if there is a good one."""
+        final = self.root / "entries" / key[:2] / key
+        return final if self._is_good(final) else None
+
     def check(self) -> str | None:
         """Say why the cache cannot be written; None if it can."""
         try:
