@@ -11,7 +11,7 @@ from tests.maps.test_base import BASE
 
 from driveblocks.cli import app
 from driveblocks.desk.run.drives import Named
-from driveblocks.maps import catalog
+from driveblocks.maps import catalog, lookup
 from driveblocks.maps.form import Span
 from driveblocks.maps.load import load, loads
 from driveblocks.maps.model import Drive
@@ -82,6 +82,36 @@ def test_a_register_is_shown_with_its_number(tmp_path: Path) -> None:
     file.write_text(numbered("4xxxx"), encoding="utf-8")
     shown = CliRunner().invoke(app, ["show", file.as_posix(), "1001H"])
     assert re.search(r"^ *number +44098$", shown.stdout, re.MULTILINE)
+
+
+@pytest.mark.parametrize(("word", "told"), [("44098", "1001H = 4097"), ("4098", "1001H"), ("40000", None)])
+def test_a_register_is_found_by_its_number(word: str, told: str | None, tmp_path: Path) -> None:
+    file = tmp_path / "acme.yaml"
+    file.write_text(numbered("4xxxx" if word[0] == "4" and len(word) == 5 else "1"), encoding="utf-8")
+    shown = CliRunner().invoke(app, ["show", file.as_posix(), word])
+    assert shown.exit_code == (0 if told else 2)
+    assert (told or "") in shown.stdout
+
+
+COILS = """
+  - id: inputs
+    title: {en: Inputs}
+    source: section 9
+    access: r
+    space: coil
+    registers:
+      - {address: 1, name: First coil}
+"""
+
+
+def test_each_table_has_its_own_numbers() -> None:
+    text = numbered("4xxxx")
+    text = text.replace("\n  - id: commands\n", f"\n{COILS[1:]}  - id: commands\n", 1)
+    assert any("1 is no number of a coil" in each for each in wrong(text))
+    map_ = loads(text.replace("first: 40001", "first: 40001, coil: 1"), "map")
+    row = next(row for _, row in map_.registers() if row.name == "First coil")
+    assert named(map_, row.address) == "coil 1"
+    assert lookup.find(map_, "coil 1")[0].entry == lookup.find(map_, "coil 0000H")[0].entry == row
 
 
 @pytest.mark.parametrize(("name", "told"), [("4xxxx", "44097-44098"), ("hexadecimal", "1001H-1002H")])

@@ -20,13 +20,14 @@ from driveblocks.maps.model import (
     Section,
     Setting,
 )
+from driveblocks.maps.numbering import numbered
 
 Found = Section | Register | Area | Bit | Fault | ErrorCode | Function | Setting | Frame
 
 _ADDRESS = re.compile(r"(?:0X)?([0-9A-F]{1,4})H?")
 
-_TABLE = re.compile(r"(COIL|DISCRETE|INPUT) ([0-9A-F]{1,4})H?")
-"""An address of another table than the holding registers, as maps write it."""
+_TABLE = re.compile(r"(COIL|DISCRETE|INPUT) ([0-9A-F]{1,6})H?")
+"""An address of another table than the holding registers, as maps write it; or a number of it, as manuals do."""
 
 _DECIMAL = re.compile(r"[1-9][0-9]{3,4}")
 """An address as some PLCs want it, in decimal: 4096 is 1000H, unless there is a 4096H. Fewer digits are a code, too."""
@@ -50,7 +51,9 @@ def find(drive: Drive, word: str) -> list[Match]:
     upper = word.upper()
     found = [*_by_id(drive, upper)] if word else []
     if match := _TABLE.fullmatch(upper):
-        return [*_at_address(drive, SPACES[match[1].lower()] + int(match[2], 16), spelled=True)]
+        return [*_in_table(drive, match[1].lower(), match[2], hexadecimal=upper.endswith("H"))]
+    if upper.isdecimal() and (at := numbered(drive, "holding", int(upper))) is not None:
+        found += _at_address(drive, at, spelled=True)
     number = _number(upper)
     if number is not None:
         address = upper.startswith("0X") or len(upper.rstrip("H")) == 4
@@ -59,6 +62,14 @@ def find(drive: Drive, word: str) -> list[Match]:
     if _DECIMAL.fullmatch(upper):
         found += _at_address(drive, int(upper), spelled=not any(match.spelled for match in found))
     return sorted(found, key=lambda match: not match.spelled)
+
+
+def _in_table(drive: Drive, space: str, text: str, *, hexadecimal: bool) -> Iterator[Match]:
+    """Coil 0003H is an address; coil 4 is a number where the manual numbers coils, else an address, too."""
+    at = None if hexadecimal or not text.isdecimal() else numbered(drive, space, int(text))
+    address = SPACES[space] + int(text, 16) if at is None else at
+    if address - SPACES[space] <= 0xFFFF:
+        yield from _at_address(drive, address, spelled=True)
 
 
 def _number(upper: str) -> int | None:

@@ -1329,6 +1329,9 @@ class Numbering(Entry):
     """How the manual numbers registers, where it does not give the addresses that are sent."""
 
     first: Count = fact("the number of the register whose address is 0", "40001")
+    coil: Count | None = fact("the same for coils, where it is another", "1", optional=True)
+    discrete: Count | None = fact("the same for discrete inputs", "10001", optional=True)
+    input: Count | None = fact("the same for input registers", "30001", optional=True)
     proof: Word | None = fact("id of an example request that shows it", "read_request", optional=True)
     says: English | None = fact(
         "the manual's own words, where no example shows it", "the number minus 1 is sent", optional=True
@@ -1337,6 +1340,11 @@ class Numbering(Entry):
     document: Word | None = fact(_SAYS_SO, "fieldbus_guide", optional=True)
     hexadecimal: bool = field(default=False, compare=False, repr=False)
     """Whether the rows of the map write numbers so; the loader sees it."""
+
+    def base(self, space: str) -> int:
+        """The number whose address is 0 in a table of Modbus."""
+        own: int | None = getattr(self, space, None)
+        return self.first if own is None else own
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -19,9 +19,8 @@ Addressed = Callable[[str, Place], str]
 
 def wired(root: Node | None, report: Report) -> Node | None:
     """The same map with addresses in the place of the manual's numbers; as it is where it has no `numbering`."""
-    said = root.entries["numbering"][1] if isinstance(root, Entries) and "numbering" in root.entries else None
-    first = said.entries["first"][1] if isinstance(said, Entries) and "first" in said.entries else None
-    if root is None or not isinstance(first, Scalar) or not form.COUNT.pattern.fullmatch(first.text):
+    bases = _bases(root)
+    if root is None or "first" not in bases:
         return root
 
     def address(text: str, at: Place) -> str:
@@ -29,18 +28,43 @@ def wired(root: Node | None, report: Report) -> Node | None:
         match = _SPACED.fullmatch(text)
         space, rest = (match[1] or "", match[2]) if match else ("", text)
         ends = rest.split("-")
-        return space + "-".join(one(each, at) for each in ends) if all(map(_NUMBER.fullmatch, ends)) else text
+        least = bases.get(space.rstrip(), bases["first"])
+        thing = space.rstrip() or "register"
+        return (
+            space + "-".join(one(each, at, least, thing) for each in ends)
+            if all(map(_NUMBER.fullmatch, ends))
+            else text
+        )
 
-    def one(text: str, at: Place) -> str:
+    def one(text: str, at: Place, least: int, thing: str) -> str:
         number = int(text[:-1], 16) if text.endswith("H") else int(text)
-        least = int(first.text)
         if not least <= number <= least + 0xFFFF:
             right = f"by `numbering` they are {least} to {least + 0xFFFF}"
-            report.add(at, f"{text} is no number of a register", right)
+            article = "an" if thing == "input" else "a"
+            report.add(at, f"{text} is no number of {article} {thing}", right)
             return "0000H"
         return form.address_text(number - least)
 
     return _wired(EntryOf(Drive), root, address)
+
+
+def _bases(root: Node | None) -> dict[str, int]:
+    """The number of address 0: `first`, and by table where a table has its own."""
+    said = root.entries["numbering"][1] if isinstance(root, Entries) and "numbering" in root.entries else None
+    rows = said.entries if isinstance(said, Entries) else {}
+    told = {key: rows[key][1] for key in ("first", "coil", "discrete", "input") if key in rows}
+    return {
+        key: int(each.text)
+        for key, each in told.items()
+        if isinstance(each, Scalar) and form.COUNT.pattern.fullmatch(each.text)
+    }
+
+
+def numbered(drive: Drive, space: str, number: int) -> int | None:
+    """The address of a number of a table, where the manual numbers registers."""
+    if drive.numbering is None or not 0 <= number - drive.numbering.base(space) <= 0xFFFF:
+        return None
+    return form.SPACES[space] + number - drive.numbering.base(space)
 
 
 def named(drive: Drive, span: Span) -> str:
@@ -48,7 +72,8 @@ def named(drive: Drive, span: Span) -> str:
     one = drive.numbering
     if one is None:
         return form.span_text(span)
-    numbers = dict.fromkeys(form.wire(each) + one.first for each in (span.first, span.last))
+    base = one.base(form.space_of(span.first))
+    numbers = dict.fromkeys(form.wire(each) + base for each in (span.first, span.last))
     written = "-".join(f"{each:04X}H" if one.hexadecimal else str(each) for each in numbers)
     return f"{form.address_text(span.first).rpartition(' ')[0]} {written}".lstrip()
 

@@ -9,7 +9,7 @@ from structured_text.language.fingerprint import fingerprint
 
 _LATER = {
     "None": "base numbering document trust differs no_address reply_delay group ram_when present_bits needs full_scale "
-    "full_scale_hz warnings silent_ms",
+    "full_scale_hz warnings silent_ms coil discrete input",
     "()": "never without one_of visible_when twins otherwise",
     "False": "negative",
 }
