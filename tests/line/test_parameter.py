@@ -27,6 +27,9 @@ END_VAR
 VAR
   Gate : {{ prefix }}_ParameterGate; (* of the family *)
 END_VAR
+VAR CONSTANT
+  BOX_PARAMETER : UINT := 2; (* compartment of the parameter *)
+END_VAR
 
 {% include "drive/drive/parameter.j2" %}
   WriteWaits := Gate.Writes;

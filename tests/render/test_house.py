@@ -74,6 +74,24 @@ def test_every_file_holds_one_thing_named_like_it(units: list[Unit]) -> None:
         assert len(declared[0]) <= 31
 
 
+def test_no_block_is_longer_than_300_lines(library: dict[str, str]) -> None:
+    lines = {name: content.count("\n") for name, content in library.items() if "/line/" not in name}
+    assert {name: count for name, count in lines.items() if count > 300} == {}
+
+
+def test_a_compartment_an_error_and_a_reason_have_names_in_the_blocks_of_drives(library: dict[str, str]) -> None:
+    code = {
+        name: re.sub(r"\(\*.*?\*\)", "", content, flags=re.DOTALL)
+        for name, content in library.items()
+        if not re.search(r"/(line|modbus|types)/|Text(En|Zh)\.st$", name)
+    }
+    literal = re.compile(
+        r"(Ask|Answer)\[\d|\b(?!BusyReason)\w*(ErrorID|Error|Reason|Why\d?|Bar|Ends|Lost|_MayWrite) (:=|=|<>) [1-9]"
+    )
+    found = {name: [one[0] for one in literal.finditer(content)] for name, content in code.items()}
+    assert {name: some for name, some in found.items() if some} == {}
+
+
 def test_lines_fit_a_screen(library: dict[str, str]) -> None:
     lines = [(name, line) for name, content in library.items() for line in content.splitlines()]
     string = re.compile(r" *\w+ := '[^']*';")  # which cannot be broken, and stands alone

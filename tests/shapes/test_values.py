@@ -157,11 +157,14 @@ def test_the_frequency_of_a_pair(name: str, words: str, hertz: float) -> None:
 )
 @pytest.mark.thorough
 def test_the_words_of_a_reference_of_32_bits(name: str, sent: int, words: tuple[int, int]) -> None:
-    orders = next(each for each in built()[name].blocks if each.path.endswith("_Orders.st"))
-    block = EmbeddedEngine().build([Text(orders.path, orders.text)]).instance(Path(orders.path).stem)
+    *types, orders = (
+        each for each in built()[name].blocks if re.search(r"/(MB_Words4|MB_Ask|\w+_Orders)\.st$", each.path)
+    )
+    files = [Text(each.path, each.text) for each in (*types, orders)]
+    block = EmbeddedEngine().build(files).instance(Path(orders.path).stem)
     block["Order"], block["ReferenceWord"] = 10, sent
     block.scan()
-    assert (block["Value"], block["Second"], block["Quantity"]) == (*words, 2)
+    assert (block["Ask.Words[0]"], block["Ask.Words[1]"], block["Ask.Quantity"]) == (*words, 2)
 
 
 def test_no_program_for_a_foreign_master_where_it_takes_coils_or_pairs() -> None:

@@ -190,10 +190,11 @@ def _read(drive: Drive) -> dict[str, str]:
             name, at = word_input(drive, address).name, address - poll.address
             said = f"(SHR(Words[0], {at}) AND {word(1)})" if is_bit(address) else f"Words[{at}]"
             taken.append(f"({come}) AND ({name} = {said}) OR NOT ({come}) AND ({name} = Was.{name})")
+    first = "First OR " if first_reads(drive) else ""
     turns = [
-        f"(Turn <> {turn}) OR (NextEntry = {index + 1}) AND (Register = {word(reads[index].address)}) "
-        f"AND (Quantity = {reads[index].words})"
-        + (f" AND (FunctionCode = {reads[index].function})" if len({each.function for each in reads}) > 1 else "")
+        f"{first}(Turn <> {turn}) OR (NextEntry = {index + 1}) "
+        f"AND (Ask.Address = {word(reads[index].address)}) AND (Ask.Quantity = {reads[index].words}) "
+        f"AND (Ask.FunctionCode = {reads[index].function})"
         for turn, index in enumerate(schedule(reads))
     ]
     fast = [number for number, poll in enumerate(reads, 1) if poll.fast]
@@ -289,7 +290,7 @@ def _shown(drive: Drive) -> dict[str, str]:
         "verified": _every(word for _, word in verify),
         "settings_since": _every(f"Reads.Sure{number}" for number in _settings_reads(drive)),
         "settings_seen": _every(f"Reads.Since{number}" for number in _verifying(drive)) if verify else "FALSE",
-        "settled_read": "(NOT Settled.Proved OR Reads.SettingsRead)" if _settings_reads(drive) else "TRUE",
+        "settled_read": "(NOT Known.Settled.Proved OR Reads.SettingsRead)" if _settings_reads(drive) else "TRUE",
         "settings_said": _every(f"({decoded}) = ({word})" for decoded, word in verify),
         "said": _every(said),
         "pins": _every(pins),

@@ -1,5 +1,7 @@
 """The named constants of the blocks in `line/` and `vfd/`: one table, so that a number has the same name in all."""
 
+import re
+
 from driveblocks.render import reasons, results
 
 STOPS = {"stop": 1, "quick_stop": 2, "coast_stop": 3, "jog_stop": 4}
@@ -123,6 +125,11 @@ def named(*names: str, kind: str = "UINT") -> str:
         number, meaning = _of(name)
         lines.append(f"  {name} : {kind} := {number}; (* {meaning} *)")
     return "\n".join(lines)
+
+
+def errors(body: str) -> str:
+    """Declarations of the result codes that a body names, as they come in it. Raises KeyError."""
+    return named(*dict.fromkeys(re.findall(r"\bERROR_[A-Z_]+", body)))
 
 
 def _of(name: str) -> tuple[int, str]:

@@ -365,7 +365,7 @@ def _reading(drive: Drive) -> Reading:
         young_reads=sorted({number[each] for each in young_words(drive)}),
         running_reads=sorted({number[each.register] for each in _running(drive)}),
         status_polls=max(_gap(turns, index) for index in set(turns) if reads[index - 1].fast),
-        several=len({read.function for read in reads}) > 1,
+        several=len({read.function for read in (*reads, *(each.read for each in first_reads(drive)))}) > 1,
         identity=_identity(drive),
     )
 

@@ -66,6 +66,7 @@ def environment() -> jinja2.Environment:
         age=age,
         oldest=oldest,
         entries=entries,
+        errors=constants.errors,
         taken=taken,
         turns=turns,
         either=either,

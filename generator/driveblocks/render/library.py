@@ -37,7 +37,7 @@ LINE_BLOCKS = (
     "MB_Sending", "MB_Next",
 )  # fmt: skip
 CONTROL_BLOCKS = (
-    "VFD_HardStop", "VFD_Next", "VFD_Link", "VFD_Unit", "VFD_Set", "VFD_Usual", "VFD_Pace", "VFD_Evidence",
+    "VFD_HardStop", "VFD_Next", "VFD_Link", "VFD_Unit", "VFD_Set", "VFD_Usual", "VFD_Pace", "VFD_Evidence", "VFD_Known",
     "VFD_IsScale", "VFD_Scaled", "VFD_ScaledSigned", "VFD_Diagnose", "VFD_Identity", "VFD_Pins", "VFD_Run",
     "VFD_FaultReset", "VFD_Start", "VFD_FirstStop", "VFD_StopRound", "VFD_Steady", "VFD_Send", "VFD_Why", "VFD_Control",
 )  # fmt: skip

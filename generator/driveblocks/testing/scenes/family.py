@@ -20,6 +20,9 @@ from structured_text.language.writing import word
 NEVER_MS, STALE_MS, LONGEST_MS = 65535, 1000, 8
 """The age of what was never read; what is older is too old; no reply comes later, ms."""
 
+_ASK = "TheOrders.Ask"
+"""What a command writes."""
+
 Row = list[Any]
 """In words, what is given, what must be shown."""
 
@@ -80,9 +83,8 @@ def _turns(drive: Drive) -> Iterator[Row]:
     for turn, index in enumerate(schedule(reads)):
         read = reads[index]
         yield [f"turn {turn}", {"Turn": turn}, {
-            "NextEntry": index + 1, "Register": word(read.address), "Quantity": read.words,
-            "OtherQuantity": other_words(drive, read, reads),
-            **({"FunctionCode": read.function} if len({each.function for each in reads}) > 1 else {}),
+            "NextEntry": index + 1, "TheReads.Ask.Address": word(read.address), "TheReads.Ask.Quantity": read.words,
+            "OtherQuantity": other_words(drive, read, reads), "TheReads.Ask.FunctionCode": read.function,
         }]  # fmt: skip
 
 
@@ -224,11 +226,12 @@ def _orders(drive: Drive) -> Iterator[Row]:
             yield [words, {"Order": numbers[does]} | number, shown]
             yield none
     reference = word(drive.operation.reference.register)
-    shows: Shows = {"Register": reference, "Value": word(0x1234), "Moves": False}
+    shows: Shows = {f"{_ASK}.Address": reference, f"{_ASK}.Words[0]": word(0x1234), "Moves": False}
     row = drive.register_at(drive.operation.reference.register, "w")
     if row is not None and row.words:
         low = row.order == "low_first"
-        shows |= {"Value": word(0x1234 if low else 0), "Second": word(0 if low else 0x1234), "Quantity": 2}
+        shows |= {f"{_ASK}.Words[0]": word(0x1234 if low else 0), f"{_ASK}.Words[1]": word(0 if low else 0x1234)}
+        shows |= {f"{_ASK}.Quantity": 2}
     yield ["the reference", {"Order": 10, "ReferenceWord": 0x1234}, shows]
 
 
@@ -250,9 +253,9 @@ def _awaited(drive: Drive, one: Command, step: int) -> Shows:
 def _write(one: Command, step: int, *, several: bool) -> Shows:
     write, last = one.writes[step], step == len(one.first)
     pattern = of_write(write)
-    value = f"(TheOrders.Value AND {word(pattern.mask)})"
+    value = f"({_ASK}.Words[0] AND {word(pattern.mask)})"
     found: Shows = {
-        "Register": word(pattern.register),
+        f"{_ASK}.Address": word(pattern.register),
         value: word(COIL_ON * pattern.value if is_bit(pattern.register) else pattern.value),
         "Moves": last and one.does in MOTIONS,
     }
