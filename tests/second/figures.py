@@ -36,7 +36,7 @@ FOREIGN, SHARED = 54, 56
 """Errors of the line: another master seems to be there; a slot has two blocks."""
 EXCHANGE_US = 50_000
 """A request and its reply at 19,200 bit/s, up to 18 ms after it; or three scans, where those are longer."""
-PATH_ROUNDS = {"ATV312": 8, "MX2": 1}
+PATH_ROUNDS = {"ATV312": 5, "MX2": 1}
 """Rounds of the line by which a start of several writes is longer; a drive gets one write and one read in a round.
 
 MX2 has one write more, its direction. Three writes of ATV312 each wait for a status that was read after them (BBV51701,
