@@ -13,6 +13,7 @@ from driveblocks.maps import conduct, inventory, plan, rivals, trust
 from driveblocks.maps.form import address_text
 from driveblocks.maps.model import Absence, Drive, Erratum, Notice, Setting
 from driveblocks.maps.polls import Poll, polls, schedule, wire_ms
+from driveblocks.meaning.serial import serial
 from driveblocks.platforms import CANONICAL, EXPORTS, PLATFORMS, cost
 from driveblocks.platforms.ladder import diagram
 from driveblocks.platforms.part import Part
@@ -180,12 +181,12 @@ def _turns_on(drive: Drive) -> str:
 def _wires(drive: Drive) -> dict[str, str]:
     """What the manual of a drive says of its line, and what it does not say."""
     gaps = [one for one in drive.absent if "serial" in one.about and "termination" in one.what]
-    silence = drive.serial.silence
-    milliseconds = f"more than {silence.milliseconds} ms" if silence and silence.milliseconds else ""
-    characters = f"{silence.characters} characters" if silence and silence.characters else ""
+    line = serial(drive)
+    milliseconds = f"more than {line.silence_ms} ms" if line.silence_ms else ""
+    characters = f"{line.silence_characters} characters" if line.silence_characters else ""
     return {
         "name": f"[{drive.prefix}]({drive.prefix}_Drive.md)",
-        "port": drive.serial.interface.en,
+        "port": line.interface,
         "open": "see below" if gaps else "see the manual",
         "silence": milliseconds or characters or "the manual does not say",
         "find_out": "; ".join(one.find_out for one in gaps),
@@ -194,7 +195,7 @@ def _wires(drive: Drive) -> dict[str, str]:
 
 def _swapped(drive: Drive) -> dict[str, str]:
     """What a block of this family wants otherwise than that of another."""
-    first, unit = motor(drive), drive.serial.unit
+    first, line = motor(drive), serial(drive)
     return {
         "prefix": drive.prefix,
         "full": f"required: what {first.maximum} says" if first.percent else "no use",
@@ -202,7 +203,7 @@ def _swapped(drive: Drive) -> dict[str, str]:
         "pairs": "required" if first.in_rpm else "no use",
         "reset": "yes" if first.has_reset else "no",
         "cannot": ", ".join(words for does, words in ABILITIES.items() if not can(drive, does)) or "nothing",
-        "units": f"{unit.min} to {unit.max}",
+        "units": f"{line.lowest} to {line.highest}",
     }
 
 
@@ -249,15 +250,14 @@ def _network(platform: str, drive: Drive, blocks: Mapping[str, FunctionBlock]) -
 
 
 def _pins(drive: Drive, block: FunctionBlock) -> tuple[list[Pin], list[Pin], list[Pin]]:
-    unit = drive.serial.unit
-    ranges = {"Address": f"{unit.min} to {unit.max}"}
+    ranges = {"Address": f"{serial(drive).lowest} to {serial(drive).highest}"}
     inputs, in_outs, outputs = (pins(block, kind, ranges) for kind in (VarKind.INPUT, VarKind.IN_OUT, VarKind.OUTPUT))
     return inputs, in_outs, outputs
 
 
 def _page(drive: Drive, checked: Checked, values: Mapping[str, Any], own: Own, platforms: list[str]) -> str:
     block = checked.blocks[f"{drive.prefix}_Drive".upper()]
-    listed = {code.baud for code in drive.serial.baud.codes} if drive.serial.baud else set()
+    listed = serial(drive).rates
     open_ = [each for each in drive.absent if _open(drive, each)]
     return render(
         "docs/Drive.md.j2",
@@ -426,9 +426,9 @@ def _turn_round(drive: Drive) -> int:
 
 def _silence(drive: Drive) -> float | None:
     """The silence that a drive asks for, ms; None for one that speaks ASCII alone, which needs none."""
-    if "rtu" not in drive.serial.mode.modes:
+    if serial(drive).ascii:
         return None
-    return float((drive.serial.silence and drive.serial.silence.milliseconds) or 0)
+    return float(serial(drive).silence_ms)
 
 
 @dataclass(frozen=True)

@@ -15,6 +15,7 @@ from driveblocks.maps.revision import checked
 from driveblocks.maps.rivals import first_reads, refusals
 from driveblocks.maps.trust import second_hand
 from driveblocks.maps.view import error_number
+from driveblocks.meaning.serial import serial
 from driveblocks.modbus.layout import COIL_ON
 from driveblocks.render.context import word_input
 from driveblocks.render.decoded import Decoded
@@ -49,8 +50,8 @@ def facts(drive: Drive) -> dict[str, str]:
     row = drive.register_at(drive.operation.reference.register, "w")
     found = {
         "P": drive.prefix,
-        "lowest": str(drive.serial.unit.min),
-        "highest": str(drive.serial.unit.max),
+        "lowest": str(serial(drive).lowest),
+        "highest": str(serial(drive).highest),
         "write": str(writes_by(drive, stop.register)),
         "reference": word(drive.operation.reference.register),
         "written": _written(drive),
@@ -266,7 +267,7 @@ def _settings(drive: Drive) -> str:
 def _shown(drive: Drive) -> dict[str, str]:
     """That the pins show what the map says of the words that were read, and what is handed to the line."""
     said, pins = [], []
-    dialect, silence = refusals(drive), drive.serial.silence
+    dialect = refusals(drive)
     busy = next((error_number(one) or 0 for one in drive.errors.codes if one.busy), 0)
     for one in drive.operation.status:
         holds = _any(_holds(drive, each) for each in one.any)
@@ -276,7 +277,7 @@ def _shown(drive: Drive) -> dict[str, str]:
     tolerant = any(each.kind == "two_byte_count" for each in drive.tolerances)
     told = [
         f"Slot.TwoByteCount = {tolerant}".upper(),
-        f"Slot.SilenceMs = {int(silence.milliseconds or 0) if silence else 0}",
+        f"Slot.SilenceMs = {int(serial(drive).silence_ms)}",
         f"Slot.ExceptionAdd = {dialect.add}",
         f"Slot.ErrorFunction = {dialect.function or 0}",
         f"Slot.ErrorAddress = {word(dialect.address or 0)}",

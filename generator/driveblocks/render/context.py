@@ -10,7 +10,6 @@ from driveblocks import __version__
 from driveblocks.maps import names
 from driveblocks.maps.form import Span, address_text, bits_text, is_bit, space_of
 from driveblocks.maps.model import (
-    Broadcast,
     Command,
     Condition,
     Drive,
@@ -18,12 +17,12 @@ from driveblocks.maps.model import (
     Scale,
     Section,
     State,
-    UnitAddress,
     Value,
 )
 from driveblocks.maps.names import UNIT_NAMES, symbol
 from driveblocks.maps.plan import READ_WORDS, WRITE_WORDS, Plan, Words, holding
 from driveblocks.maps.revision import revision
+from driveblocks.meaning.serial import Broadcast, Serial, serial
 from driveblocks.render.expression import Test, is_real
 
 STANDARD_EXCEPTION_ADD = 0x80
@@ -152,7 +151,7 @@ class Request:
     """An ASCII frame holds less than an RTU frame."""
     longest: int
     """Words of the longest write."""
-    unit: UnitAddress
+    serial: Serial
     beyond: bool
     """There are addresses that the standard reserves."""
     unit_pin: str
@@ -169,7 +168,8 @@ def request(drive: Drive, allowed: Plan) -> Request:
         for code, folder in FUNCTIONS.items()
         if code in allowed.functions and not (code == 4 and elsewhere)
     }
-    modes, unit, broadcast = drive.serial.mode.modes, drive.serial.unit, drive.serial.broadcast
+    line = serial(drive)
+    modes, broadcast = line.modes, line.broadcast
     most = allowed.rtu if "rtu" in modes else _without_framing(drive)
     less = allowed.ascii.read < most.read or (16 in functions and allowed.ascii.write < most.write)
     return Request(
@@ -181,11 +181,11 @@ def request(drive: Drive, allowed: Plan) -> Request:
         ascii=allowed.ascii,
         tight="ascii" in modes and less,
         longest=most.write if "rtu" in modes else min(most.write, allowed.ascii.write),
-        unit=unit,
-        beyond=unit.max > 247,
-        unit_pin="Standard" if unit.max > 247 else "UnitAddress",
+        serial=line,
+        beyond=line.highest > 247,
+        unit_pin="Standard" if line.highest > 247 else "UnitAddress",
         broadcast=broadcast,
-        start_addresses=broadcast.start_addresses if broadcast else (),
+        start_addresses=broadcast.starts if broadcast else (),
         example_read=next((span.first for span in holding(allowed.readable)), 0),
     )
 

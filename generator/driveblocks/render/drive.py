@@ -9,7 +9,7 @@ from operator import or_
 
 from driveblocks.maps import model, names
 from driveblocks.maps.form import address_text, is_bit
-from driveblocks.maps.model import Command, Condition, Drive, Scale, State, Status, UnitAddress, kept
+from driveblocks.maps.model import Command, Condition, Drive, Scale, State, Status, kept
 from driveblocks.maps.pair import places
 from driveblocks.maps.plan import writes_by
 from driveblocks.maps.polls import (
@@ -27,6 +27,7 @@ from driveblocks.maps.revision import checked
 from driveblocks.maps.rivals import First, first_reads, refusals
 from driveblocks.maps.trust import second_hand
 from driveblocks.maps.view import error_number
+from driveblocks.meaning.serial import Serial, serial
 from driveblocks.modbus.checksum import crc16
 from driveblocks.modbus.layout import COIL_ON, Dialect
 from driveblocks.render import context
@@ -309,7 +310,7 @@ class Own:
     source: str
     prefix: str
     family_number: int
-    unit: UnitAddress
+    serial: Serial
     dialect: Dialect
     two_byte_count: bool
     busy: int
@@ -448,11 +449,11 @@ def _own(drive: Drive) -> Own:
         source=context.source_of(drive, stop.source),
         prefix=drive.prefix,
         family_number=family_number(drive.prefix),
-        unit=drive.serial.unit,
+        serial=serial(drive),
         dialect=refusals(drive),
         two_byte_count=reply.two_byte_count,
         busy=_busy(drive),
-        silence=_silence(drive),
+        silence=int(serial(drive).silence_ms),
         second_hand=second_hand(drive),
         checked=checked(drive),
         feeds=drive.watchdog.feeds if drive.watchdog else None,
@@ -648,8 +649,3 @@ def _known(drive: Drive, scale: Scale | None, register: int, number: dict[int, i
     own = sorted({number[each] for each in asked - meaning_words(drive)} - {number[register]})
     verified = ["Reads.SettingsRead"] if asked & meaning_words(drive) else []
     return " AND ".join(verified + [f"Reads.Young{each}" for each in own])
-
-
-def _silence(drive: Drive) -> int:
-    silence = drive.serial.silence
-    return int(silence.milliseconds or 0) if silence else 0

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 from math import ceil
 
 from driveblocks.maps.model import Drive
+from driveblocks.meaning.serial import Serial, serial
 from driveblocks.render import context
 from driveblocks.render.context import Word
 from driveblocks.render.drive import drive_block
@@ -16,23 +17,13 @@ PATIENCE_MS = 500
 
 
 @dataclass(frozen=True)
-class Port:
-    """Bit rate, parity (1 odd, 2 even) and bits of a character; whether the manual has them."""
-
-    rate: int
-    bits: int
-    parity: int
-    known: bool
-
-
-@dataclass(frozen=True)
 class Motor:
     """For motor/: the drive's name and what is sent to it, and the factory settings of its line."""
 
     drive: Drive
     name: str
     family: str
-    port: Port
+    port: Serial
     scan: int
     has_reset: bool
     second_hand: bool
@@ -53,7 +44,7 @@ def motor(drive: Drive) -> Motor:
         drive=drive,
         name=f"{drive.prefix}_Drive",
         family=context.identity(drive).family,
-        port=_port(drive),
+        port=serial(drive),
         scan=SCAN_MS,
         has_reset="fault_reset" in ordering.can,
         second_hand=own.second_hand,
@@ -62,7 +53,7 @@ def motor(drive: Drive) -> Motor:
         percent=ordering.percent,
         maximum=ordering.maximum,
         checked=own.checked,
-        ascii="rtu" not in drive.serial.mode.modes,
+        ascii=serial(drive).ascii,
         pause=_pause(drive),
         patience=PATIENCE_MS,
     )
@@ -70,17 +61,8 @@ def motor(drive: Drive) -> Motor:
 
 def _pause(drive: Drive) -> int:
     """Silence that a Modbus master of the PLC has to be set to, ms: by itself it keeps 3.5 characters."""
-    silence = drive.serial.silence and drive.serial.silence.milliseconds
+    silence = serial(drive).silence_ms
     return ceil(silence) + 1 if silence else 0
-
-
-def _port(drive: Drive) -> Port:
-    """The drive's factory settings where the manual has them."""
-    rates, formats = drive.serial.baud, drive.serial.format
-    rate = next((each.baud for each in rates.codes if each.code == rates.default), 9600) if rates else 9600
-    parity = next((each.parity for each in formats.codes if each.code == formats.default), "") if formats else ""
-    number = {"odd": 1, "even": 2}.get(parity, 0)
-    return Port(rate, 11 if number else 10, number, rates is not None)
 
 
 @dataclass(frozen=True)

@@ -11,6 +11,7 @@ from driveblocks.maps.model import Drive, Reference
 from driveblocks.maps.pair import places, whole
 from driveblocks.maps.plan import Words, dialect, most, plan
 from driveblocks.maps.rivals import own_address
+from driveblocks.meaning.serial import serial
 from driveblocks.modbus.layout import Dialect
 from driveblocks.simulator.copies import Copy, copies, zeros
 from driveblocks.simulator.face import Situation, face, named_bits, situations
@@ -127,7 +128,7 @@ def table(drive: Drive, habits: Habits, *, ascii_mode: bool = False) -> Table:
     gauges = _gauges(drive, habits)
     measured = frozenset(gauge.register for gauge in gauges)
     words = most(drive, "ascii" if ascii_mode else "rtu")
-    broadcast, bits = drive.serial.broadcast, drive.faults.bits
+    broadcast, bits = serial(drive).broadcast, drive.faults.bits
     states = tuple(state.name for state in drive.operation.states)
     named = named_bits(drive, measured)
     codes_at = {drive.faults.present, *drive.warned, *(range(bits.first, bits.last + 1) if bits else ())} - {None}
@@ -142,7 +143,7 @@ def table(drive: Drive, habits: Habits, *, ascii_mode: bool = False) -> Table:
         writable=allowed.writable,
         group=drive.limits.group.value if drive.limits.group else 0x10000,
         broadcast=broadcast.address if broadcast else None,
-        broadcasts=broadcast.start_addresses if broadcast else (),
+        broadcasts=broadcast.starts if broadcast else (),
         limits=(*_limits(drive), *_choices(drive), *_highest(drive, habits)),
         dialect=dialect(drive),
         codes=codes(drive),

@@ -29,11 +29,12 @@ from driveblocks.desk.screen import Desk, Heading, Lines, LiveTable, Screen
 from driveblocks.desk.words import LOOPBACK, opening, time
 from driveblocks.maps import catalog
 from driveblocks.maps.problem import Refused
+from driveblocks.meaning.serial import USUAL_BITS, USUAL_RATE
 from structured_text import files
 from structured_text.visible import file_name
 
 LONGEST_SCAN_US = 60_000_000
-USUAL = {"BitRate": 9600, "CharacterBits": 10}
+USUAL = {"BitRate": USUAL_RATE, "CharacterBits": USUAL_BITS}
 """What a line takes where a pin is 0."""
 SHORTEST_WATCHDOG_US, LONGEST_WATCHDOG_US = 10_000, 600_000_000
 RECKONED_WATCHDOG_US = 30_000_000

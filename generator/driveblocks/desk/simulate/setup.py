@@ -23,6 +23,7 @@ from driveblocks.desk.simulate.stand import Stand, view
 from driveblocks.desk.words import LOOPBACK, NO_PORT, opening, time
 from driveblocks.maps.load import named as map_of
 from driveblocks.maps.problem import Refused
+from driveblocks.meaning.serial import character
 
 LABEL = "SIMULATED"
 TCP = 5020
@@ -59,8 +60,7 @@ class Setup:
         self._play = Play(self.maps, scenario.read(words.scenario, self.maps) if words.scenario else ())
         drives = [one.made(ascii_mode=words.ascii) for one in wanted]
         self._settings = [line for one in wanted for line in one.told()]
-        bits = 1 + int(words.form[0]) + (words.form[1] != "N") + int(words.form[2])
-        self._bus = Bus(drives, words.baud, bits, ascii_mode=words.ascii)
+        self._bus = Bus(drives, words.baud, character(words.form).bits, ascii_mode=words.ascii)
         self._tracer = Tracer(self.maps)
 
     def _wrong(self) -> list[str]:
