@@ -38,8 +38,8 @@ HARD_STOP = "VFD_HardStop"
 """Block of the contact in the hard stop, which has a page, too."""
 RATES = (9600, 19200)
 DRIVES = (1, 3, 7)
-TURN_ROUND_MS, BITS = 5, 10
-"""Under what the page's figures hold: a turn-round that no manual promises, and 8N1."""
+TURN_ROUND_MS = 5
+"""Under what the page's figures hold; no manual promises it."""
 ABILITIES = {
     "run_reverse": "run in reverse", "jog_forward": "jog forward", "jog_reverse": "jog in reverse",
     "quick_stop": "quick stop", "coast_stop": "coast stop", "fault_reset": "reset a fault",
@@ -404,7 +404,7 @@ class Read:
 
 def _reads(drive: Drive) -> Iterator[Read]:
     """Each read with its registers and what it takes on the wire, turn-round and silences included."""
-    found = drive_block(drive).reading.reads
+    found, bits = drive_block(drive).reading.reads, serial(drive).character.bits
     fast = [one for one in found if one.read.fast]
     # see `schedule`: a status that one read brings comes twice before what is slow
     often = "twice a round" if len(fast) == 1 < len(found) else "once a round"
@@ -415,7 +415,7 @@ def _reads(drive: Drive) -> Iterator[Read]:
             often if poll.fast else "one slow read a round",
             address_text(poll.address),
             [f"{word.address_text} {context.inside_a_sentence(word.title)}" for word in one.words],
-            [f"{wire_ms(poll, rate, BITS, _turn_round(drive), _silence(drive)):.0f}" for rate in RATES],
+            [f"{wire_ms(poll, rate, bits, _turn_round(drive), _silence(drive)):.0f}" for rate in RATES],
         )
 
 
@@ -451,7 +451,7 @@ def _refresh(drive: Drive) -> Iterator[Refresh]:
 
 
 def _scans(drive: Drive, poll: Poll, rate: int, *, keeps: bool) -> int:
-    character = 1000 * BITS / rate
+    character = 1000 * serial(drive).character.bits / rate
     own = _silence(drive)
     silence = 0.0 if own is None else max(3.5 * character, own)
     wire = poll.characters(ascii_mode=own is None) * character + _turn_round(drive)

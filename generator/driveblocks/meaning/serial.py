@@ -1,5 +1,6 @@
 """The serial line of a drive: modes, bit rates, characters, addresses, pauses, and what it has as delivered."""
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from decimal import Decimal
 
@@ -66,7 +67,7 @@ class Serial:
     """As delivered; where the manual does not say, the usual one."""
     character: Character
     known: bool
-    """The manual names rates."""
+    """The manual says so."""
     units_said: Citation
     lowest: int
     """The unit addresses, from ... to."""
@@ -108,7 +109,7 @@ def serial(drive: Drive) -> Serial:
         characters=tuple(each for _, each in sorted(written, key=lambda one: not one[0])),
         rate=next((each for factory, each in named if factory), USUAL_RATE),
         character=next((each for factory, each in written if factory), Character()),
-        known=rates is not None,
+        known=any(factory for factory, _ in named),
         units_said=cited(unit),
         lowest=unit.min,
         highest=unit.max,
@@ -119,6 +120,12 @@ def serial(drive: Drive) -> Serial:
         silence_characters=silence.characters if silence else None,
         broadcast=Broadcast(cited(cast), cast.address, cast.start_addresses) if cast else None,
     )
+
+
+def delivered(drives: Iterable[Drive]) -> tuple[int, Character]:
+    """Bit rate and character that all of some drives have as delivered; where they differ, the usual ones."""
+    found = {(serial(each).rate, serial(each).character) for each in drives}
+    return found.pop() if len(found) == 1 else (USUAL_RATE, Character())
 
 
 def _character(code: FormatCode) -> Character:

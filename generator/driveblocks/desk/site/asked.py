@@ -17,7 +17,7 @@ from driveblocks.maps.collection import Source
 from driveblocks.maps.plan import reply_delay, writes_by
 from driveblocks.maps.polls import Poll, polls
 from driveblocks.maps.problem import Refused
-from driveblocks.meaning.serial import FORMS, USUAL_BITS, USUAL_RATE, character, serial
+from driveblocks.meaning.serial import FORMS, USUAL_BITS, USUAL_RATE, character, delivered, serial
 from structured_text import files
 from structured_text.engines.embedded.library import EmbeddedInstance
 from structured_text.visible import file_name
@@ -124,6 +124,7 @@ def _text(words: Words, drives: list[Named], watchdog: int) -> str:
     size = 8 if len(drives) + len(words.device) <= 8 else MOST_UNITS
     taken = {each.unit for each in drives}
     free = (unit for unit in range(1, 248) if unit not in taken)
+    rate, its = delivered(each.drive for each in drives)
     declared, called = [], []
     for at, each in enumerate(drives):
         pins = f"Address := {each.unit}, MaximumHz := 50.0, StopWithinMs := 65534, Settings := Setting"
@@ -138,7 +139,8 @@ def _text(words: Words, drives: list[Named], watchdog: int) -> str:
         f"PROGRAM TypedLine\nVAR\n  RxCount : UINT;\n  RxChars : MB_Adu;\n  TxChars : MB_LineFrame;\n"
         f"  Values : MB_Words16;\n  Setting : VFD_Settings;\n  Slots : MB_Slots{size};\n  Bus : MB_ByteLine{size};\n"
         f"{''.join(declared)}END_VAR\n  Setting.WatchdogMs := {watchdog};\n{''.join(called)}"
-        f"  Bus(RxCount := RxCount, RxChars := RxChars, TxChars := TxChars, Slots := Slots);\nEND_PROGRAM\n"
+        f"  Bus(BitRate := {rate}, CharacterBits := {its.bits},\n"
+        f"    RxCount := RxCount, RxChars := RxChars, TxChars := TxChars, Slots := Slots);\nEND_PROGRAM\n"
     )
 
 
