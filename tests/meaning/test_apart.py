@@ -8,8 +8,9 @@ import pytest
 from tests import shipped
 
 from driveblocks.meaning.serial import serial
+from driveblocks.meaning.status import status
 
-MEANINGS = (serial,)
+MEANINGS = (serial, status)
 
 
 def held(value: Any, path: str) -> Iterator[tuple[str, Any]]:

@@ -8,6 +8,7 @@ from driveblocks.docs.pins import SCALES, unit_of
 from driveblocks.maps.conduct import reply_delay
 from driveblocks.maps.form import address_text
 from driveblocks.maps.model import Drive
+from driveblocks.meaning.status import status
 from driveblocks.render.drive import MEASURES, drive_block, pin_of
 from structured_text.language.tree import StructSpec, TypeDecl, VarDecl
 
@@ -111,7 +112,7 @@ def _diagnosis(drive: Drive) -> Iterator[tuple[str, str]]:
             yield name, "always 0: the drive does not show it"
     coded = f"see `{drive.prefix}_WarningText`" if drive.warnings else "always 0: the map has no warning codes"
     yield "WarningCode", coded
-    if not any(one.shows == "limit" for one in drive.operation.status):
+    if not status(drive).shows("limit"):
         yield "LimitActive", "always FALSE: the drive does not show it"
     commands = {one.does for one in drive.operation.commands}
     for name, does in _ABILITIES.items():

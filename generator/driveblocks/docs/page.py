@@ -14,6 +14,7 @@ from driveblocks.maps.form import address_text
 from driveblocks.maps.model import Absence, Drive, Erratum, Notice, Setting
 from driveblocks.maps.polls import Poll, polls, schedule, wire_ms
 from driveblocks.meaning.serial import serial
+from driveblocks.meaning.status import status
 from driveblocks.platforms import CANONICAL, EXPORTS, PLATFORMS, cost
 from driveblocks.platforms.ladder import diagram
 from driveblocks.platforms.part import Part
@@ -290,7 +291,7 @@ def _page(drive: Drive, checked: Checked, values: Mapping[str, Any], own: Own, p
         states_said=[(name, states.SAYS[number]) for number, (name, _) in enumerate(NAMES)],
         hard_stop=HARD_STOP,
         derived=_guessed(drive),
-        verify=drive.operation.reference.verify,
+        status=status(drive),
         conduct=_conduct(drive),
         feeds=drive.watchdog.feeds if drive.watchdog else None,
         proved_tripped=timing.proves_while_tripped(drive),
@@ -311,11 +312,11 @@ def can(drive: Drive, does: str) -> bool:
 
 def _reported(drive: Drive) -> list[str]:
     """What a drive tells by itself over the bus, in words."""
-    operation = drive.operation
-    told = [f"that it is {WORDS[one]}" for one in WORDS if any(each.shows == one for each in operation.status)]
-    told += ["what it is"] if drive.identity is not None else []
-    told += ["whether the bus is in command"] if operation.commanded_by is not None else []
-    return told + (["its own maximum frequency"] if operation.own_maximum is not None else [])
+    shows = status(drive)
+    told = [f"that it is {words}" for one, words in WORDS.items() if shows.shows(one)]
+    told += ["what it is"] if shows.identity.patterns else []
+    told += ["whether the bus is in command"] if shows.by_bus.patterns else []
+    return told + (["its own maximum frequency"] if drive.operation.own_maximum is not None else [])
 
 
 def _shown(drive: Drive, cell: str) -> list[str]:
@@ -345,8 +346,7 @@ def _shows(drive: Drive, shows: str) -> str:
 
 def _guessed(drive: Drive) -> bool:
     """Whether AtSpeed rests on an output frequency without a scale."""
-    shown = any(one.shows == "at_speed" for one in drive.operation.status)
-    return not shown and _shows(drive, "output_frequency") not in ("yes", "no")
+    return not status(drive).shows("at_speed") and _shows(drive, "output_frequency") not in ("yes", "no")
 
 
 # ---------------------------------------------------------------- what a person sets, and has to find out

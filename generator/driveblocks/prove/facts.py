@@ -6,7 +6,7 @@ Taken from the map itself, not from what the generator made of it.
 from collections.abc import Iterable, Iterator, Mapping
 
 from driveblocks.maps.form import is_bit
-from driveblocks.maps.model import Bits, Command, Condition, Drive, Measured, Step
+from driveblocks.maps.model import Command, Drive, Measured, Step
 from driveblocks.maps.names import UNIT_NAMES
 from driveblocks.maps.pair import places, whole
 from driveblocks.maps.plan import writes_by
@@ -15,7 +15,9 @@ from driveblocks.maps.revision import checked
 from driveblocks.maps.rivals import first_reads, refusals
 from driveblocks.maps.trust import second_hand
 from driveblocks.maps.view import error_number
+from driveblocks.meaning.pattern import Pattern, bits_of
 from driveblocks.meaning.serial import serial
+from driveblocks.meaning.status import registers, status
 from driveblocks.modbus.layout import COIL_ON
 from driveblocks.render.context import word_input
 from driveblocks.render.decoded import Decoded
@@ -46,7 +48,7 @@ NEAR = (
 def facts(drive: Drive) -> dict[str, str]:
     """The facts of a family by the names under which the rules have them, as ST."""
     commands: dict[str, Command] = {one.does: one for one in drive.operation.commands}
-    stop = commands["stop"]
+    stop, shows = commands["stop"], status(drive)
     row = drive.register_at(drive.operation.reference.register, "w")
     found = {
         "P": drive.prefix,
@@ -57,7 +59,7 @@ def facts(drive: Drive) -> dict[str, str]:
         "written": _written(drive),
         "sent_word": f"Slot.Ask[1].Words[{places(row, 1)[1] - 1 if row and row.words else 0}]",
         "holds_reference": _is_reference(drive),
-        "standstill": _every(_holds(drive, each) for each in drive.operation.standstill.all),
+        "standstill": _every(_holds(drive, each) for each in shows.standstill.patterns),
         "proof_since": _every(f"Reads.Since{number}" for number in _proof_reads(drive)),
         **_read(drive),
         **_shown(drive),
@@ -68,20 +70,19 @@ def facts(drive: Drive) -> dict[str, str]:
         "unwritable": _every(_beside(each) for each in sorted(_command_registers(drive)) if not is_bit(each)),
         "keep": "Settings.KeepWord" if any(_kept(drive, one) for one in commands.values()) else word(0),
     }
-    shown = {one.shows for one in drive.operation.status}
+    shown = {one.name for one in shows.shown}
     measured = {one.shows for one in drive.operation.measures}
     for pin in ("reverse", "fault", "warning", "at_speed", "zero_speed"):
         computed = pin.endswith("speed") and "output_frequency" in measured
         found[f"shows_{pin}"] = str(pin in shown or computed).upper()
     for name, member in (("may_stop", "MayStop"), ("known", "Known"), ("wrong", "Wrong")):
         found[name] = f"Identity.{member}" if first_reads(drive) else str(name != "wrong").upper()
-    running = next(one for one in drive.operation.status if one.shows == "running")
-    found["running"] = _any(_holds(drive, each) for each in running.any)
-    by_bus = drive.operation.commanded_by.all if drive.operation.commanded_by else ()
+    running, by_bus = shows.shows("running"), shows.by_bus.patterns
+    found["running"] = _any(_holds(drive, each) for each in running)
     found["by_bus"] = _every(_holds(drive, each) for each in by_bus)
     found["says_by_bus"] = _every(Decoded(drive).holds(each) for each in by_bus)
     found["others_command"] = f"Control.Seen.OthersCommand <> ({found['says_by_bus']})" if by_bus else "TRUE"
-    found["says_running"] = _any(Decoded(drive).holds(each) for each in running.any)
+    found["says_running"] = _any(Decoded(drive).holds(each) for each in running)
     for does in (*MOTIONS, *STOPS, "fault_reset"):
         one = commands.get(does)
         ask = "Slot.Ask[0]" if does in STOPS else "Slot.Ask[1]"
@@ -99,11 +100,11 @@ def facts(drive: Drive) -> dict[str, str]:
 
 def _frames(drive: Drive, one: Command, stop: Command, ask: str) -> Iterator[str]:
     """Each write of a command as a condition on a request: its register, and its word with the bits that are kept."""
-    image = {stop.register: _mask(stop.set)} if one.does == "fault_reset" else {}
+    image = {stop.register: bits_of(stop.set)} if one.does == "fault_reset" else {}
     for write in one.writes:
         keep = 0 if write.value is not None else _kept(drive, write)
-        before = image.get(write.register, 0) & ~_mask(write.clear)
-        image[write.register] = write.value if write.value is not None else before | _mask(write.set)
+        before = image.get(write.register, 0) & ~bits_of(write.clear)
+        image[write.register] = write.value if write.value is not None else before | bits_of(write.set)
         value = word(COIL_ON * image[write.register] if is_bit(write.register) else image[write.register])
         held = f"({ask}.Words[0] AND {word(ALL ^ keep)}) = {value}" if keep else f"{ask}.Words[0] = {value}"
         by = _by(drive, write.register) if ask == "Slot.Ask[1]" else ""
@@ -150,19 +151,10 @@ def _kept(drive: Drive, write: Command | Step) -> int:
     return 0 if write.value is not None else sum(1 << bit for bit in used - touched - barred)
 
 
-def _mask(spans: Iterable[Bits]) -> int:
-    return sum(1 << bit for bit in {bit for span in spans for bit in span})
-
-
-def _holds(drive: Drive, one: Condition) -> str:
-    """A condition of the map on the word that the drive block has read."""
+def _holds(drive: Drive, one: Pattern) -> str:
+    """A pattern on the word that the drive block has read."""
     name, is_ = f"Reads.{word_input(drive, one.register).name}", "<>" if one.differs else "="
-    if one.mask is not None:
-        return f"({name} AND {word(one.mask)}) {is_} {word(one.equals & one.mask)}"
-    if one.bit is None:
-        return f"{name} {is_} {word(one.equals)}"
-    bits = list(one.bit)
-    return f"({name} AND {word(_mask([one.bit]))}) {is_} {word(one.equals << min(bits))}"
+    return f"{name if one.mask == ALL else f'({name} AND {word(one.mask)})'} {is_} {word(one.value)}"
 
 
 def _comes(number: int, poll: Poll) -> str:
@@ -172,7 +164,7 @@ def _comes(number: int, poll: Poll) -> str:
 
 def _at_once(drive: Drive, poll: Poll) -> bool:
     """Whether its words count though they are doubtful: they show motion, or that there is a fault."""
-    if poll.fast or any(one.shows == "fault" for one in drive.operation.status):
+    if poll.fast or status(drive).shows("fault"):
         return poll.fast
     words = set(range(poll.address, poll.address + poll.words))
     bits = drive.faults.bits
@@ -238,7 +230,7 @@ def _read(drive: Drive) -> dict[str, str]:
 
 def _settings_reads(drive: Drive) -> list[int]:
     """The numbers of the polls that bring what the reference rests on."""
-    wanted = {one.register for one in drive.operation.reference.verify}
+    wanted = set(registers(status(drive).verify))
     if drive.operation.own_maximum:
         wanted.add(drive.operation.own_maximum.register)
     numbered = enumerate(polls(drive), 1)
@@ -247,7 +239,7 @@ def _settings_reads(drive: Drive) -> list[int]:
 
 def _verifying(drive: Drive) -> list[int]:
     """The numbers of the polls that bring a setting that is compared."""
-    wanted = {one.register for one in drive.operation.reference.verify}
+    wanted = set(registers(status(drive).verify))
     numbered = enumerate(polls(drive), 1)
     return [number for number, poll in numbered if wanted & set(range(poll.address, poll.address + poll.words))]
 
@@ -269,11 +261,12 @@ def _shown(drive: Drive) -> dict[str, str]:
     said, pins = [], []
     dialect = refusals(drive)
     busy = next((error_number(one) or 0 for one in drive.errors.codes if one.busy), 0)
-    for one in drive.operation.status:
-        holds = _any(_holds(drive, each) for each in one.any)
-        said.append(f"({_any(Decoded(drive).holds(each) for each in one.any)}) = ({holds})")
-        if one.shows in PINS:
-            pins.append(f"{PINS[one.shows]} = ({'Running AND ' * (one.shows == 'at_speed')}({holds}))")
+    shows = status(drive)
+    for one in shows.shown:
+        holds = _any(_holds(drive, each) for each in one.patterns)
+        said.append(f"({_any(Decoded(drive).holds(each) for each in one.patterns)}) = ({holds})")
+        if one.name in PINS:
+            pins.append(f"{PINS[one.name]} = ({'Running AND ' * (one.name == 'at_speed')}({holds}))")
     tolerant = any(each.kind == "two_byte_count" for each in drive.tolerances)
     told = [
         f"Slot.TwoByteCount = {tolerant}".upper(),
@@ -283,8 +276,8 @@ def _shown(drive: Drive) -> dict[str, str]:
         f"Slot.ErrorAddress = {word(dialect.address or 0)}",
         f"Slot.BusyReason = {busy}",
     ]
-    ready = [_holds(drive, each) for one in drive.operation.status if one.shows == "ready" for each in one.any]
-    verify = [(Decoded(drive).holds(each), _holds(drive, each)) for each in drive.operation.reference.verify]
+    ready = [_holds(drive, each) for each in shows.shows("ready")]
+    verify = [(Decoded(drive).holds(each), _holds(drive, each)) for each in shows.verify]
     return {
         "ready_shown": f"(CommOk AND ({_any(ready)}))" if ready else "TRUE",
         "verified": _every(word for _, word in verify),
@@ -295,7 +288,7 @@ def _shown(drive: Drive) -> dict[str, str]:
         "said": _every(said),
         "pins": _every(pins),
         "told": _every(told),
-        "at_speed": "(Running OR NOT AtSpeed)" if "at_speed" in {one.shows for one in drive.operation.status} else NEAR,
+        "at_speed": "(Running OR NOT AtSpeed)" if shows.shows("at_speed") else NEAR,
         "unchecked": f"(ManualChecked <> {checked(drive)})" if second_hand(drive) else "FALSE",
         "other_maximum": "(Reads.SettingsRead AND NOT SameMaximum)" if drive.operation.own_maximum else "FALSE",
         "valid": _every(_valid(drive, one) for one in drive.operation.measures),
@@ -356,14 +349,14 @@ def _holds_ms(drive: Drive) -> Iterator[str]:
 
 def _proof_reads(drive: Drive) -> list[int]:
     """The numbers of the polls that bring what proves standstill."""
-    wanted = {one.register for one in drive.operation.standstill.all}
+    wanted = set(registers(status(drive).standstill.patterns))
     numbered = enumerate(polls(drive), 1)
     return [number for number, poll in numbered if wanted & set(range(poll.address, poll.address + poll.words))]
 
 
 def _speed_reads(drive: Drive) -> list[int]:
     """The numbers of the polls that bring the frequency among the proof; all of the proof where it has none."""
-    proof = {one.register for one in drive.operation.standstill.all}
+    proof = set(registers(status(drive).standstill.patterns))
     speed = {one.register for one in drive.operation.measures if one.shows == "output_frequency"} & proof
     numbered = enumerate(polls(drive), 1)
     return [at for at, poll in numbered if (speed or proof) & set(range(poll.address, poll.address + poll.words))]

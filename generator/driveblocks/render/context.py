@@ -1,7 +1,7 @@
 """Map -> values ready to print: one class per template of a drive. No Jinja in here, and no drive by name."""
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Literal
@@ -11,18 +11,18 @@ from driveblocks.maps import names
 from driveblocks.maps.form import Span, address_text, bits_text, is_bit, space_of
 from driveblocks.maps.model import (
     Command,
-    Condition,
     Drive,
     Register,
     Scale,
     Section,
-    State,
     Value,
 )
 from driveblocks.maps.names import UNIT_NAMES, symbol
 from driveblocks.maps.plan import READ_WORDS, WRITE_WORDS, Plan, Words, holding
 from driveblocks.maps.revision import revision
+from driveblocks.meaning.pattern import WORD, Pattern, bits_of
 from driveblocks.meaning.serial import Broadcast, Serial, serial
+from driveblocks.meaning.status import registers, status
 from driveblocks.render.expression import Test, is_real
 
 STANDARD_EXCEPTION_ADD = 0x80
@@ -432,11 +432,6 @@ def kept(drive: Drive) -> dict[int, int]:
     return found
 
 
-def bits_of(spans: Iterable[Span]) -> int:
-    """The word in which the bits of some spans are set."""
-    return sum(1 << bit for bit in {bit for span in spans for bit in span})
-
-
 def _told(one: Command, stop: Command, keeps: dict[int, Keep]) -> Told:
     """A command; a reset beside the run bits is a stop with the bits of the reset."""
     if one.value is not None:
@@ -463,7 +458,7 @@ class Referred:
     """Counts per hertz, or of 100 %."""
     exact: bool
     """A REAL holds it."""
-    verify: tuple[Condition, ...]
+    verify: tuple[Pattern, ...]
     in_rpm: bool
     """It counts in r/min, which are 60 per Hz of a motor with one pole pair."""
     signed: bool
@@ -497,7 +492,7 @@ def reference(drive: Drive) -> Referred:
         scaled=scaled,
         ratio=ratio,
         exact=is_real(ratio),
-        verify=spec.verify,
+        verify=status(drive).verify,
         in_rpm=in_rpm,
         signed=drive.operation.by_sign,
         highest=highest,
@@ -513,21 +508,21 @@ class Standstill:
     why: str
     source: str
     words: list[Word]
-    conditions: tuple[Condition, ...]
+    conditions: tuple[Pattern, ...]
     tests: list[Test]
 
 
 def standstill(drive: Drive) -> Standstill:
     """What proves that the motor is at standstill."""
-    proof = drive.operation.standstill
-    words = [word_input(drive, address) for address in dict.fromkeys(one.register for one in proof.all)]
+    proof = status(drive).standstill
+    words = [word_input(drive, address) for address in registers(proof.patterns)]
     pins = {word.address: word.name for word in words}
     return Standstill(
         why=_elsewhere(proof.why[:1].upper() + proof.why[1:].rstrip(".") + "."),
-        source=source_of(drive, proof.source),
+        source=source_of(drive, proof.said.source),
         words=words,
-        conditions=proof.all,
-        tests=[tested(pins[one.register], one) for one in proof.all],
+        conditions=proof.patterns,
+        tests=[tested(pins[one.register], one) for one in proof.patterns],
     )
 
 
@@ -538,13 +533,9 @@ def word_input(drive: Drive, address: int) -> Word:
     return Word(names.word_pin(row, address), address, address_text(address), row.name or "", bit=is_bit(address))
 
 
-def tested(pin: str, condition: Condition | State) -> Test:
-    """A condition, or a state, as a test of the word at a pin; the value of a bit or field is moved to its place."""
-    if isinstance(condition, State):
-        return Test(pin, condition.mask or 0, condition.equals)
-    if condition.bit is None:
-        return Test(pin, condition.mask or 0, condition.equals, bool(condition.differs))
-    return Test(pin, bits_of([condition.bit]), condition.equals << condition.bit.first, bool(condition.differs))
+def tested(pin: str, one: Pattern) -> Test:
+    """A pattern as a test of the word at a pin."""
+    return Test(pin, one.mask if one.mask != WORD else 0, one.value, one.differs)
 
 
 @dataclass(frozen=True)

@@ -1,6 +1,6 @@
 """Map -> values for the drive block: what it reads, what each pin is made of, and what each command writes."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from decimal import Decimal
 from functools import reduce
@@ -9,7 +9,7 @@ from operator import or_
 
 from driveblocks.maps import model, names
 from driveblocks.maps.form import address_text, is_bit
-from driveblocks.maps.model import Command, Condition, Drive, Scale, State, Status, kept
+from driveblocks.maps.model import Command, Drive, Scale, kept
 from driveblocks.maps.pair import places
 from driveblocks.maps.plan import writes_by
 from driveblocks.maps.polls import (
@@ -27,7 +27,9 @@ from driveblocks.maps.revision import checked
 from driveblocks.maps.rivals import First, first_reads, refusals
 from driveblocks.maps.trust import second_hand
 from driveblocks.maps.view import error_number
+from driveblocks.meaning.pattern import Pattern, bits_of, of_condition
 from driveblocks.meaning.serial import Serial, serial
+from driveblocks.meaning.status import Sign, registers, status
 from driveblocks.modbus.checksum import crc16
 from driveblocks.modbus.layout import COIL_ON, Dialect
 from driveblocks.render import context
@@ -344,7 +346,8 @@ def drive_block(drive: Drive) -> Block:
 
 
 def _reading(drive: Drive) -> Reading:
-    reads, operation = polls(drive), drive.operation
+    reads, operation, shown = polls(drive), drive.operation, status(drive)
+    proof = registers(shown.standstill.patterns)
     places = list(_places(drive, reads))
     number = {each.address: each.number for each in places}
     turns = [index + 1 for index in schedule(reads)]
@@ -353,27 +356,27 @@ def _reading(drive: Drive) -> Reading:
         number=number,
         turns=turns,
         places={index: [turn for turn, each in enumerate(turns) if each == index] for index in turns},
-        proof=[word_input(drive, each) for each in _proof(drive)],
-        proof_reads=sorted({number[each] for each in _proof(drive)}),
-        speed_reads=sorted({number[each] for each in speed_words(drive)}),
+        proof=[word_input(drive, each) for each in proof],
+        proof_reads=_numbers(number, proof),
+        speed_reads=_numbers(number, speed_words(drive)),
         fault=_fault(drive),
         warned=_warned(drive),
         fault_reads=_fault_reads(drive, number),
         fast_reads=[index for index, read in enumerate(reads, 1) if read.fast],
-        state_reads=sorted({number[each.register] for each in operation.states}),
-        verify_reads=sorted({number[each] for each in meaning_words(drive)}),
-        measure_reads=sorted({number[one.register] for one in operation.measures}),
-        young_reads=sorted({number[each] for each in young_words(drive)}),
-        running_reads=sorted({number[each.register] for each in _running(drive)}),
+        state_reads=_numbers(number, registers(each.pattern for each in shown.states)),
+        verify_reads=_numbers(number, meaning_words(drive)),
+        measure_reads=_numbers(number, (one.register for one in operation.measures)),
+        young_reads=_numbers(number, young_words(drive)),
+        running_reads=_numbers(number, registers(shown.shows("running"))),
         status_polls=max(_gap(turns, index) for index in set(turns) if reads[index - 1].fast),
         several=len({read.function for read in reads}) > 1,
         identity=_identity(drive),
     )
 
 
-def _running(drive: Drive) -> Iterator[Condition]:
-    """What shows whether the motor runs."""
-    return (each for one in drive.operation.status if one.shows == "running" for each in one.any)
+def _numbers(number: dict[int, int], addresses: Iterable[int]) -> list[int]:
+    """The reads that bring some words."""
+    return sorted({number[each] for each in addresses})
 
 
 def _gap(turns: list[int], number: int) -> int:
@@ -383,16 +386,14 @@ def _gap(turns: list[int], number: int) -> int:
 
 
 def _showing(drive: Drive, number: dict[int, int], told: Decoded) -> Showing:
-    operation = drive.operation
+    shown, verify = status(drive).shown, status(drive).verify
     return Showing(
         shown=STATUS,
-        status={one.shows: [_condition(drive, each) for each in one.any] for one in operation.status},
-        says={
-            one.shows: [told.holds(each) for each in one.any] for one in sorted(operation.status, key=_running_first)
-        },
-        verify=[_condition(drive, each) for each in operation.reference.verify],
-        verified=[told.holds(each) for each in operation.reference.verify],
-        measures={one.shows: _measure(drive, one, told, number) for one in operation.measures},
+        status={one.name: [_tested(drive, each) for each in one.patterns] for one in shown},
+        says={one.name: [told.holds(each) for each in one.patterns] for one in sorted(shown, key=_running_first)},
+        verify=[_tested(drive, each) for each in verify],
+        verified=[told.holds(each) for each in verify],
+        measures={one.shows: _measure(drive, one, told, number) for one in drive.operation.measures},
         pins={shows: pin_of(shows) for shows in MEASURES},
         commanded_by=_commanded_by(drive, number, told),
         own_maximum=_own_maximum(drive),
@@ -400,9 +401,9 @@ def _showing(drive: Drive, number: dict[int, int], told: Decoded) -> Showing:
     )
 
 
-def _running_first(one: Status) -> bool:
+def _running_first(one: Sign) -> bool:
     """A key: a drive that stands may say that its reference is reached, which is shown only while it runs."""
-    return one.shows != "running"
+    return one.name != "running"
 
 
 def _ordering(drive: Drive) -> Ordering:
@@ -470,7 +471,7 @@ def _writes(drive: Drive, one: Command, stop: Command) -> Iterator[Write]:
     Bits that a write neither sets nor clears stay as the write before has left them; a reset begins as a stop.
     """
     kept = context.kept(drive)
-    image = {stop.register: context.bits_of(stop.set)} if one.does == "fault_reset" else {}
+    image = {stop.register: bits_of(stop.set)} if one.does == "fault_reset" else {}
     holds = [*(max(step.for_ms or 0, step.silent_ms or 0) for step in one.first), 0]
     waits = [*(_wait(drive, step.until) for step in one.first), None]
     moves = one.does in ORDERS and one.does != "fault_reset"
@@ -478,16 +479,16 @@ def _writes(drive: Drive, one: Command, stop: Command) -> Iterator[Write]:
         if write.value is not None:
             image[write.register] = write.value
         else:
-            before = image.get(write.register, 0) & ~context.bits_of(write.clear)
-            image[write.register] = before | context.bits_of(write.set)
+            before = image.get(write.register, 0) & ~bits_of(write.clear)
+            image[write.register] = before | bits_of(write.set)
         keep = 0 if write.value is not None else kept.get(write.register, 0)
         bits = image[write.register] and COIL_ON if is_bit(write.register) else image[write.register]
         last = moves and write is one
         yield Write(write.register, bits, keep, hold, wait, last, writes_by(drive, write.register))
 
 
-def _state(drive: Drive, name: str) -> State:
-    return next(one for one in drive.operation.states if one.name == name)
+def _state(drive: Drive, name: str) -> Pattern:
+    return next(one.pattern for one in status(drive).states if one.name == name)
 
 
 def _state_words(drive: Drive) -> dict[int, tuple[str, str]]:
@@ -518,7 +519,7 @@ def _wait(drive: Drive, name: str | None) -> Wait | None:
     if name is None:
         return None
     state = _state(drive, name)
-    return Wait(name, _state_words(drive)[state.register][1], state.mask or 0xFFFF, state.equals)
+    return Wait(name, _state_words(drive)[state.register][1], state.mask, state.value)
 
 
 def _places(drive: Drive, reads: tuple[Poll, ...]) -> Iterator[Word]:
@@ -536,12 +537,12 @@ def _read(drive: Drive, number: int, places: list[Word], reads: tuple[Poll, ...]
 
 
 def _identity(drive: Drive) -> Identified | None:
-    firsts = first_reads(drive)
+    firsts, own = first_reads(drive), status(drive).identity
     if not firsts:
         return None
     tests = _plate(drive, firsts[0].read)
     reads = [_shown(each, tests) for each in firsts]
-    sources = [context.source_of(drive, drive.identity.source)] if drive.identity else [each.source for each in firsts]
+    sources = [context.source_of(drive, own.said.source)] if own.patterns else [each.source for each in firsts]
     where = " and ".join(f"at {address_text(each.address)}" for each in reads)
     return Identified(bool(tests), reads, where, _busy(drive) or BUSY * (not drive.errors.codes), "; ".join(sources))
 
@@ -554,17 +555,16 @@ def _shown(first: First, tests: list[Masked]) -> Shown:
 
 def _plate(drive: Drive, read: Poll) -> list[Masked]:
     """The tests of the map's identity, where it has one."""
-    conditions = drive.identity.all if drive.identity else ()
-    tests = [(each.register - read.address, _condition(drive, each)) for each in conditions]
-    return [Masked(index, test.mask or 0xFFFF, test.value) for index, test in tests]
+    patterns = status(drive).identity.patterns
+    return [Masked(each.register - read.address, each.mask, each.value) for each in patterns]
 
 
 def _commanded_by(drive: Drive, number: dict[int, int], told: Decoded) -> InCommand | None:
-    bus = drive.operation.commanded_by
-    if bus is None:
+    bus = status(drive).by_bus
+    if not bus.patterns:
         return None
-    reads = sorted({number[each.register] for each in bus.all})
-    return InCommand([told.holds(each) for each in bus.all], reads, context.source_of(drive, bus.source))
+    reads, holds = _numbers(number, registers(bus.patterns)), [told.holds(each) for each in bus.patterns]
+    return InCommand(holds, reads, context.source_of(drive, bus.said.source))
 
 
 def _own_maximum(drive: Drive) -> Maximum | None:
@@ -577,11 +577,7 @@ def _own_maximum(drive: Drive) -> Maximum | None:
     return Maximum(word_input(drive, maximum.register), row.scale, function, source)
 
 
-def _proof(drive: Drive) -> list[int]:
-    return list(dict.fromkeys(one.register for one in drive.operation.standstill.all))
-
-
-def _condition(drive: Drive, one: Condition) -> Test:
+def _tested(drive: Drive, one: Pattern) -> Test:
     return context.tested(word_input(drive, one.register).name, one)
 
 
@@ -599,15 +595,14 @@ def _warned(drive: Drive) -> Faulty | None:
     if warnings is None:
         return None
     word, bits = word_input(drive, warnings.register), warnings.bits
-    return Faulty(word, [], context.bits_of([bits]), 1 << bits.first) if bits else Faulty(word, [])
+    return Faulty(word, [], bits_of([bits]), 1 << bits.first) if bits else Faulty(word, [])
 
 
 def _fault_reads(drive: Drive, number: dict[int, int]) -> list[int]:
     """The reads that show whether there is a fault, and which."""
-    shown = [each.register for one in drive.operation.status if one.shows == "fault" for each in one.any]
     fault = _fault(drive)
     words = [fault.word] if fault.word else fault.words
-    return sorted({number[each] for each in (*shown, *(word.address for word in words))})
+    return _numbers(number, (*registers(status(drive).shows("fault")), *(word.address for word in words)))
 
 
 def pin_of(shows: str) -> Pin:
@@ -621,7 +616,7 @@ def _measure(drive: Drive, one: model.Measured, told: Decoded, number: dict[int,
     row = drive.register_at(one.register)
     assert row is not None  # noqa: S101  (a checked map lists the registers that it measures)
     scale = row.scale if names.UNIT_NAMES.get(row.unit or "") == MEASURES[one.shows][1] else None
-    holds = [told.holds(each) for each in scale.conditions] if scale else []
+    holds = [told.holds(of_condition(each)) for each in scale.conditions] if scale else []
     shown = pin_of(one.shows)
     high, low = places(row, one.register) if row.words else (one.register, one.register)
     return Measured(

@@ -5,6 +5,7 @@ from math import ceil
 
 from driveblocks.maps.model import Drive
 from driveblocks.meaning.serial import Serial, serial
+from driveblocks.meaning.status import registers, status
 from driveblocks.render import context
 from driveblocks.render.context import Word
 from driveblocks.render.drive import drive_block
@@ -87,9 +88,8 @@ class Master:
 def master(drive: Drive) -> dict[str, object]:
     """What a program prints that has the PLC's own master for its line."""
     proof = context.standstill(drive).words
-    verify = drive.operation.reference.verify
-    registers = dict.fromkeys((*(word.address for word in proof), *(one.register for one in verify)))
-    names = {register: context.word_input(drive, register) for register in registers}
+    verify = status(drive).verify
+    names = {word.address: word for word in (*proof, *(context.word_input(drive, each) for each in registers(verify)))}
     found = Master(
         words=list(names.values()),
         proof=[word.name for word in proof],

@@ -4,19 +4,14 @@ from collections.abc import Iterator
 from decimal import Decimal
 
 from driveblocks.maps.model import Drive
+from driveblocks.meaning.pattern import WORD, Pattern, of_condition
+from driveblocks.meaning.status import status
 from driveblocks.simulator.habits import Habits
-from driveblocks.simulator.pattern import WORD, Pattern, of_condition
 
 
 def plate(drive: Drive, habits: Habits) -> dict[int, int]:
     words: dict[int, int] = {}
-    conditions = [
-        *(drive.identity.all if drive.identity else ()),
-        *(drive.operation.commanded_by.all if drive.operation.commanded_by else ()),
-    ]
-    for each in map(of_condition, conditions):
-        words[each.register] = words.get(each.register, 0) & ~each.mask | each.value
-    for each in chosen(drive):
+    for each in (*status(drive).identity.patterns, *status(drive).by_bus.patterns, *chosen(drive)):
         words[each.register] = words.get(each.register, 0) & ~each.mask | each.value
     maximum = drive.operation.own_maximum
     row = drive.register_at(maximum.register) if maximum else None

@@ -11,13 +11,14 @@ from driveblocks.maps.model import Drive, Reference
 from driveblocks.maps.pair import places, whole
 from driveblocks.maps.plan import Words, dialect, most, plan
 from driveblocks.maps.rivals import own_address
+from driveblocks.meaning.pattern import WORD, Pattern, of_write
 from driveblocks.meaning.serial import serial
+from driveblocks.meaning.status import registers, status
 from driveblocks.modbus.layout import Dialect
 from driveblocks.simulator.copies import Copy, copies, zeros
 from driveblocks.simulator.face import Situation, face, named_bits, situations
 from driveblocks.simulator.habits import Habits
 from driveblocks.simulator.move import Move, moves
-from driveblocks.simulator.pattern import WORD, Pattern, of_condition, of_write
 from driveblocks.simulator.plate import plate
 from driveblocks.simulator.refusal import codes, refuses_beyond
 
@@ -129,7 +130,7 @@ def table(drive: Drive, habits: Habits, *, ascii_mode: bool = False) -> Table:
     measured = frozenset(gauge.register for gauge in gauges)
     words = most(drive, "ascii" if ascii_mode else "rtu")
     broadcast, bits = serial(drive).broadcast, drive.faults.bits
-    states = tuple(state.name for state in drive.operation.states)
+    states = tuple(state.name for state in status(drive).states)
     named = named_bits(drive, measured)
     codes_at = {drive.faults.present, *drive.warned, *(range(bits.first, bits.last + 1) if bits else ())} - {None}
     known = {*measured, *named, *codes_at, *plate(drive, habits), dialect(drive).address}
@@ -181,7 +182,7 @@ def _warning(drive: Drive) -> tuple[int, int]:
 
 @lru_cache(8)
 def _faces(drive: Drive, measured: frozenset[int]) -> dict[tuple[Situation, str | None], dict[int, int]]:
-    names = [state.name for state in drive.operation.states]
+    names = [state.name for state in status(drive).states]
     standing = (each for each in situations() if not each.fault and not each.running)
     keys = [(situation, None) for situation in situations()]
     keys += [(situation, name) for situation in standing for name in names]  # type: ignore[misc]  # str is str | None
@@ -190,11 +191,12 @@ def _faces(drive: Drive, measured: frozenset[int]) -> dict[tuple[Situation, str 
 
 def _gauges(drive: Drive, habits: Habits) -> tuple[Gauge, ...]:
     shows = {at: each.shows for each in drive.operation.measures for at in whole(drive, each.register)}
-    status = {each.register for one in drive.operation.status for each in one.any}
-    status |= {state.register for state in drive.operation.states}
-    for each in drive.operation.standstill.all:
+    known = status(drive)
+    states = (one.pattern for one in known.states)
+    told = registers((*(each for one in known.shown for each in one.patterns), *states))
+    for each in known.standstill.patterns:
         # no status, and 0 at standstill: a frequency, or nothing that a motor could show
-        if each.register not in status and each.bit is None and each.mask is None and each.equals == 0:
+        if each.register not in told and each.mask == WORD and each.value == 0:
             for register in whole(drive, each.register):
                 shows.setdefault(register, "output_frequency")
     return tuple(_gauge(drive, habits, register, what) for register, what in sorted(shows.items()))
@@ -255,7 +257,7 @@ def _reference(drive: Drive, reference: Reference, habits: Habits) -> Set:
     elif reference.full_scale is not None:
         milli = Fraction(1000 * (reference.full_scale_hz or habits.maximum_hz)) / reference.full_scale
         times, per = milli.limit_denominator(max(1, int(MOST_TIMES / milli))).as_integer_ratio()
-    verify = tuple(of_condition(each) for each in reference.verify)
+    verify = status(drive).verify
     if row is not None and row.words:
         high, low = places(row, reference.register)
         return Set(low, times, per, signed, reference.negative_reverses, verify, high)

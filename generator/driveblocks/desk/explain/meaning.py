@@ -9,7 +9,7 @@ from driveblocks.maps.adu import number
 from driveblocks.maps.conduct import condition
 from driveblocks.maps.form import address_text, bits_text
 from driveblocks.maps.model import Area, Bit, Command, Drive, Register, Step, Use, Value
-from driveblocks.simulator.pattern import of_condition
+from driveblocks.meaning.status import status
 
 
 @dataclass(frozen=True)
@@ -217,9 +217,9 @@ def _notes(drive: Drive, row: Register, word: int, writing: bool) -> Iterator[st
         yield from _masks(row, word)
     if writing:
         yield from _stores(drive, row)
-    proofs = [one for one in drive.operation.standstill.all if one.register in row.address]
+    proofs = [one for one in status(drive).standstill.patterns if one.register in row.address]
     if not writing and proofs:
-        met = all(of_condition(one).holds(word) for one in proofs)
+        met = all(one.holds(word) for one in proofs)
         yield "as at standstill" if met else "no standstill"
 
 

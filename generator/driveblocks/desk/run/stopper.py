@@ -15,7 +15,7 @@ from driveblocks.maps.model import Drive
 from driveblocks.maps.pair import whole
 from driveblocks.maps.plan import most, read_request
 from driveblocks.meaning.serial import USUAL_BITS, USUAL_RATE, serial
-from driveblocks.simulator.pattern import of_condition
+from driveblocks.meaning.status import registers, status
 
 LEAST_US = 2_000_000
 """How long it is tried at least: eight drives are not stopped and read in less."""
@@ -118,8 +118,8 @@ class Stopper:
 
     def _confirm(self, master: Master, unit: int, one: Stop) -> None:
         """Read whether it is at standstill. Between two reads it is stopped again: their replies may look the same."""
-        patterns = [of_condition(each) for each in one.drive.operation.standstill.all]
-        wanted = sorted({word for each in patterns for word in whole(one.drive, each.register)})
+        patterns = status(one.drive).standstill.patterns
+        wanted = sorted({word for each in registers(patterns) for word in whole(one.drive, each)})
         words: dict[int, int] = {}
         for at, span in enumerate(spans(one.drive, wanted, most(one.drive, self.speech.mode).read)):
             if at:

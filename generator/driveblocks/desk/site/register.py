@@ -8,7 +8,7 @@ from driveblocks.maps.form import Span, address_text
 from driveblocks.maps.model import Drive, Register
 from driveblocks.maps.pair import is_first, number_of, whole
 from driveblocks.maps.plan import group
-from driveblocks.simulator.pattern import of_condition
+from driveblocks.meaning.pattern import of_condition
 
 
 @dataclass(frozen=True)

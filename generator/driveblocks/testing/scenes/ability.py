@@ -5,6 +5,7 @@ from functools import cached_property
 
 from driveblocks.maps.model import Drive
 from driveblocks.maps.polls import meaning_words, polls
+from driveblocks.meaning.status import status
 from driveblocks.simulator.move import MOTIONS
 from driveblocks.testing.scenes.drive import ORDERS
 
@@ -26,7 +27,7 @@ class Ability:
 
     def shows(self, what: str) -> bool:
         """Whether its status shows something."""
-        return any(one.shows == what for one in self.drive.operation.status)
+        return bool(status(self.drive).shows(what))
 
     def measures(self, what: str) -> bool:
         """Whether it measures something."""

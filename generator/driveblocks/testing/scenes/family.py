@@ -9,10 +9,11 @@ from typing import Any
 from driveblocks.maps.form import is_bit
 from driveblocks.maps.model import Command, Drive
 from driveblocks.maps.polls import fast_words, other_words, polls, schedule, slow_words, speed_words, young_words
+from driveblocks.meaning.pattern import of_write
+from driveblocks.meaning.status import registers, status
 from driveblocks.modbus.layout import COIL_ON
 from driveblocks.reference.naming import word_pin
 from driveblocks.simulator.move import MOTIONS
-from driveblocks.simulator.pattern import of_write
 from driveblocks.testing.scenes.drive import KINDS, ORDERS
 from driveblocks.testing.scenes.scene import Shows
 from structured_text.language.writing import word
@@ -183,27 +184,27 @@ class _Known:
 def _reads_of(drive: Drive) -> dict[str, set[int]]:
     """What each read is needed for."""
     operation, faults = drive.operation, drive.faults
-    shown = [each.register for one in operation.status if one.shows == "fault" for each in one.any]
+    shows = status(drive)
+    shown = list(registers(shows.shows("fault")))
     if faults.present is not None:
         shown.append(faults.present)
     elif faults.bits is not None:
         shown += range(faults.bits.first, faults.bits.last + 1)
     own = [operation.own_maximum.register] if operation.own_maximum else []
-    bus = operation.commanded_by.all if operation.commanded_by else ()
-    registers: dict[str, Iterable[int]] = {
+    needed: dict[str, Iterable[int]] = {
         "status": fast_words(drive),
         "measures": [each.register for each in operation.measures],
         "young": young_words(drive),
         "fault": shown,
-        "proof": [each.register for each in operation.standstill.all],
+        "proof": registers(shows.standstill.patterns),
         "speed": speed_words(drive),
-        "verify": [*(each.register for each in operation.reference.verify), *own],
-        "master": [each.register for each in bus],
-        "states": [each.register for each in operation.states],
+        "verify": [*registers(shows.verify), *own],
+        "master": registers(shows.by_bus.patterns),
+        "states": registers(each.pattern for each in shows.states),
     }
     spans = (range(each.address, each.address + each.words) for each in polls(drive))
     at = {address: number for number, span in enumerate(spans) for address in span}
-    return {role: {at[each] for each in found} for role, found in registers.items()}
+    return {role: {at[each] for each in found} for role, found in needed.items()}
 
 
 # ---------------------------------------------------------------- what is written
@@ -241,10 +242,10 @@ def _awaited(drive: Drive, one: Command, step: int) -> Shows:
     if not any(step.until for command in drive.operation.commands for step in command.first):
         return {}
     until = one.first[step].until if step < len(one.first) else None
-    state = next((each for each in drive.operation.states if each.name == until), None)
+    state = next((each.pattern for each in status(drive).states if each.name == until), None)
     if state is None:
         return {"Awaits": False}
-    return {"Awaits": True, "StateMask": word(state.mask or 0xFFFF), "StateWord": word(state.equals)}
+    return {"Awaits": True, "StateMask": word(state.mask), "StateWord": word(state.value)}
 
 
 def _write(one: Command, step: int, *, several: bool) -> Shows:
