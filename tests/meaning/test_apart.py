@@ -7,10 +7,11 @@ from typing import Any
 import pytest
 from tests import shipped
 
+from driveblocks.meaning.roles import roles
 from driveblocks.meaning.serial import serial
 from driveblocks.meaning.status import status
 
-MEANINGS = (serial, status)
+MEANINGS = (serial, status, roles)
 
 
 def held(value: Any, path: str) -> Iterator[tuple[str, Any]]:

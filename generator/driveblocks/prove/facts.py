@@ -10,14 +10,15 @@ from driveblocks.maps.model import Command, Drive, Measured, Step
 from driveblocks.maps.names import UNIT_NAMES
 from driveblocks.maps.pair import places, whole
 from driveblocks.maps.plan import writes_by
-from driveblocks.maps.polls import Poll, fast_words, polls, schedule, slow_words
+from driveblocks.maps.polls import Poll, fast_words, fault_words, polls, schedule, slow_words
 from driveblocks.maps.revision import checked
 from driveblocks.maps.rivals import first_reads, refusals
 from driveblocks.maps.trust import second_hand
 from driveblocks.maps.view import error_number
 from driveblocks.meaning.pattern import Pattern, bits_of
+from driveblocks.meaning.roles import roles
 from driveblocks.meaning.serial import serial
-from driveblocks.meaning.status import registers, status
+from driveblocks.meaning.status import status
 from driveblocks.modbus.layout import COIL_ON
 from driveblocks.render.context import word_input
 from driveblocks.render.decoded import Decoded
@@ -60,7 +61,7 @@ def facts(drive: Drive) -> dict[str, str]:
         "sent_word": f"Slot.Ask[1].Words[{places(row, 1)[1] - 1 if row and row.words else 0}]",
         "holds_reference": _is_reference(drive),
         "standstill": _every(_holds(drive, each) for each in shows.standstill.patterns),
-        "proof_since": _every(f"Reads.Since{number}" for number in _proof_reads(drive)),
+        "proof_since": _every(f"Reads.Since{number}" for number in roles(drive).proof),
         **_read(drive),
         **_shown(drive),
         **_reference(drive),
@@ -166,10 +167,7 @@ def _at_once(drive: Drive, poll: Poll) -> bool:
     """Whether its words count though they are doubtful: they show motion, or that there is a fault."""
     if poll.fast or status(drive).shows("fault"):
         return poll.fast
-    words = set(range(poll.address, poll.address + poll.words))
-    bits = drive.faults.bits
-    faults = set(range(bits.first, bits.last + 1)) if bits else {drive.faults.present}
-    return bool(words & faults)
+    return not fault_words(drive).isdisjoint(poll.addresses)
 
 
 def _read(drive: Drive) -> dict[str, str]:
@@ -177,9 +175,8 @@ def _read(drive: Drive) -> dict[str, str]:
     reads = polls(drive)
     taken: list[str] = []
     for number, poll in enumerate(reads, 1):
-        words = range(poll.address, poll.address + poll.words)
         come = _comes(number, poll) + ("" if _at_once(drive, poll) else f" AND {BELIEVED}")
-        for address in sorted((fast_words(drive) | slow_words(drive)) & set(words)):
+        for address in sorted((fast_words(drive) | slow_words(drive)) & set(poll.addresses)):
             name, at = word_input(drive, address).name, address - poll.address
             said = f"(SHR(Words[0], {at}) AND {word(1)})" if is_bit(address) else f"Words[{at}]"
             taken.append(f"({come}) AND ({name} = {said}) OR NOT ({come}) AND ({name} = Was.{name})")
@@ -189,7 +186,7 @@ def _read(drive: Drive) -> dict[str, str]:
         + (f" AND (FunctionCode = {reads[index].function})" if len({each.function for each in reads}) > 1 else "")
         for turn, index in enumerate(schedule(reads))
     ]
-    fast = [number for number, poll in enumerate(reads, 1) if poll.fast]
+    fast = roles(drive).fast
     return {
         "words_taken": _every(taken),
         "settings_read": _settings(drive),
@@ -198,7 +195,7 @@ def _read(drive: Drive) -> dict[str, str]:
         "one_is_oldest": _any(f"StatusAgeMs = Age{number}" for number in fast),
         "status_age": _every(f"Reads.StatusAgeMs >= Reads.Age{number}" for number in fast)
         + f" AND ({_any(f'Reads.StatusAgeMs = Reads.Age{number}' for number in fast)})",
-        "proves": _every(f"Sure{number}" for number in _proof_reads(drive)),
+        "proves": _every(f"Sure{number}" for number in roles(drive).proof),
         "sure": _every(
             f"(Sure{number} = (Since{number} AND (Since{number}Ms > LongestMs)))" for number in range(1, len(reads) + 1)
         ),
@@ -209,7 +206,7 @@ def _read(drive: Drive) -> dict[str, str]:
             f"(NOT Since{number} OR Was.Since{number} AND NOT (Anew OR Forget OR Reread) OR {BELIEVED})"
             for number in range(1, len(reads) + 1)
         ),
-        "speed": _any(f"({_comes(number, reads[number - 1])}) AND {BELIEVED}" for number in _speed_reads(drive)),
+        "speed": _any(f"({_comes(number, reads[number - 1])}) AND {BELIEVED}" for number in roles(drive).speed),
         "ages": _every(
             f"(Age{number} = MB_Plus(Number := Was.Age{number}, More := PassedMs)) "
             f"OR Fresh AND (Entry = {number}) AND (Age{number} = PassedMs)"
@@ -228,25 +225,9 @@ def _read(drive: Drive) -> dict[str, str]:
     }
 
 
-def _settings_reads(drive: Drive) -> list[int]:
-    """The numbers of the polls that bring what the reference rests on."""
-    wanted = set(registers(status(drive).verify))
-    if drive.operation.own_maximum:
-        wanted.add(drive.operation.own_maximum.register)
-    numbered = enumerate(polls(drive), 1)
-    return [number for number, poll in numbered if wanted & set(range(poll.address, poll.address + poll.words))]
-
-
-def _verifying(drive: Drive) -> list[int]:
-    """The numbers of the polls that bring a setting that is compared."""
-    wanted = set(registers(status(drive).verify))
-    numbered = enumerate(polls(drive), 1)
-    return [number for number, poll in numbered if wanted & set(range(poll.address, poll.address + poll.words))]
-
-
 def _settings(drive: Drive) -> str:
     """When all of them were answered."""
-    brings = _settings_reads(drive)
+    brings = roles(drive).verify
     if not brings:
         return "SettingsRead"
     come = _every(f"Sure{number}" for number in brings)
@@ -281,9 +262,9 @@ def _shown(drive: Drive) -> dict[str, str]:
     return {
         "ready_shown": f"(CommOk AND ({_any(ready)}))" if ready else "TRUE",
         "verified": _every(word for _, word in verify),
-        "settings_since": _every(f"Reads.Sure{number}" for number in _settings_reads(drive)),
-        "settings_seen": _every(f"Reads.Since{number}" for number in _verifying(drive)) if verify else "FALSE",
-        "settled_read": "(NOT Settled.Proved OR Reads.SettingsRead)" if _settings_reads(drive) else "TRUE",
+        "settings_since": _every(f"Reads.Sure{number}" for number in roles(drive).verify),
+        "settings_seen": _every(f"Reads.Since{number}" for number in roles(drive).setting) if verify else "FALSE",
+        "settled_read": "(NOT Settled.Proved OR Reads.SettingsRead)" if roles(drive).verify else "TRUE",
         "settings_said": _every(f"({decoded}) = ({word})" for decoded, word in verify),
         "said": _every(said),
         "pins": _every(pins),
@@ -345,21 +326,6 @@ def _holds_ms(drive: Drive) -> Iterator[str]:
             for step, hold in enumerate([*(each.for_ms or 0 for each in one.first), 0]):
                 sent = f"(Control.Sent = {SENT[one.does]}) AND (Control.StepNumber = {step})"
                 yield f"NOT ({sent}) OR (Orders.HoldMs = {hold})"
-
-
-def _proof_reads(drive: Drive) -> list[int]:
-    """The numbers of the polls that bring what proves standstill."""
-    wanted = set(registers(status(drive).standstill.patterns))
-    numbered = enumerate(polls(drive), 1)
-    return [number for number, poll in numbered if wanted & set(range(poll.address, poll.address + poll.words))]
-
-
-def _speed_reads(drive: Drive) -> list[int]:
-    """The numbers of the polls that bring the frequency among the proof; all of the proof where it has none."""
-    proof = set(registers(status(drive).standstill.patterns))
-    speed = {one.register for one in drive.operation.measures if one.shows == "output_frequency"} & proof
-    numbered = enumerate(polls(drive), 1)
-    return [at for at, poll in numbered if (speed or proof) & set(range(poll.address, poll.address + poll.words))]
 
 
 def _command_registers(drive: Drive) -> set[int]:

@@ -1,6 +1,6 @@
 """Map -> values for the drive block: what it reads, what each pin is made of, and what each command writes."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from decimal import Decimal
 from functools import reduce
@@ -20,16 +20,15 @@ from driveblocks.maps.polls import (
     polls,
     schedule,
     slow_words,
-    speed_words,
-    young_words,
 )
 from driveblocks.maps.revision import checked
 from driveblocks.maps.rivals import First, first_reads, refusals
 from driveblocks.maps.trust import second_hand
 from driveblocks.maps.view import error_number
 from driveblocks.meaning.pattern import Pattern, bits_of, of_condition
+from driveblocks.meaning.roles import Roles, roles
 from driveblocks.meaning.serial import Serial, serial
-from driveblocks.meaning.status import Sign, registers, status
+from driveblocks.meaning.status import Sign, status
 from driveblocks.modbus.checksum import crc16
 from driveblocks.modbus.layout import COIL_ON, Dialect
 from driveblocks.render import context
@@ -156,10 +155,9 @@ class Identified:
 
 @dataclass(frozen=True)
 class InCommand:
-    """What all has to hold while the bus is in command, and the reads that bring it."""
+    """What all has to hold while the bus is in command."""
 
     holds: list[str]
-    reads: list[int]
     source: str
 
 
@@ -230,21 +228,11 @@ class Reading:
     places: dict[int, list[int]]
     """Read -> its places among the turns."""
     proof: list[Word]
-    proof_reads: list[int]
-    speed_reads: list[int]
-    """Those that bring the frequency among the proof; where it has none, all of the proof."""
     fault: Faulty
     warned: Faulty | None
     """Where the code of a warning comes from."""
-    fault_reads: list[int]
-    fast_reads: list[int]
-    state_reads: list[int]
-    verify_reads: list[int]
-    measure_reads: list[int]
-    young_reads: list[int]
-    """Those of what is shown while they are young: measures, and the code of a warning."""
-    running_reads: list[int]
-    """Those that show whether it runs."""
+    roles: Roles
+    """Which reads bring what; of each role templates have the name, with `_reads`."""
     status_polls: int
     """In how many polls of the turns all fast ones are read again, at the most."""
     several: bool
@@ -334,7 +322,8 @@ class Block:
     @property
     def values(self) -> dict[str, object]:
         """What its templates print."""
-        return vars(self.reading) | vars(self.showing) | vars(self.ordering) | vars(self.own)
+        reads = {f"{role}_reads": numbers for role, numbers in vars(self.reading.roles).items()}
+        return reads | vars(self.reading) | vars(self.showing) | vars(self.ordering) | vars(self.own)
 
 
 @kept
@@ -346,8 +335,7 @@ def drive_block(drive: Drive) -> Block:
 
 
 def _reading(drive: Drive) -> Reading:
-    reads, operation, shown = polls(drive), drive.operation, status(drive)
-    proof = registers(shown.standstill.patterns)
+    reads = polls(drive)
     places = list(_places(drive, reads))
     number = {each.address: each.number for each in places}
     turns = [index + 1 for index in schedule(reads)]
@@ -356,27 +344,14 @@ def _reading(drive: Drive) -> Reading:
         number=number,
         turns=turns,
         places={index: [turn for turn, each in enumerate(turns) if each == index] for index in turns},
-        proof=[word_input(drive, each) for each in proof],
-        proof_reads=_numbers(number, proof),
-        speed_reads=_numbers(number, speed_words(drive)),
+        proof=context.standstill(drive).words,
         fault=_fault(drive),
         warned=_warned(drive),
-        fault_reads=_fault_reads(drive, number),
-        fast_reads=[index for index, read in enumerate(reads, 1) if read.fast],
-        state_reads=_numbers(number, registers(each.pattern for each in shown.states)),
-        verify_reads=_numbers(number, meaning_words(drive)),
-        measure_reads=_numbers(number, (one.register for one in operation.measures)),
-        young_reads=_numbers(number, young_words(drive)),
-        running_reads=_numbers(number, registers(shown.shows("running"))),
+        roles=roles(drive),
         status_polls=max(_gap(turns, index) for index in set(turns) if reads[index - 1].fast),
         several=len({read.function for read in reads}) > 1,
         identity=_identity(drive),
     )
-
-
-def _numbers(number: dict[int, int], addresses: Iterable[int]) -> list[int]:
-    """The reads that bring some words."""
-    return sorted({number[each] for each in addresses})
 
 
 def _gap(turns: list[int], number: int) -> int:
@@ -395,7 +370,7 @@ def _showing(drive: Drive, number: dict[int, int], told: Decoded) -> Showing:
         verified=[told.holds(each) for each in verify],
         measures={one.shows: _measure(drive, one, told, number) for one in drive.operation.measures},
         pins={shows: pin_of(shows) for shows in MEASURES},
-        commanded_by=_commanded_by(drive, number, told),
+        commanded_by=_commanded_by(drive, told),
         own_maximum=_own_maximum(drive),
         decoders=told.used,
     )
@@ -526,7 +501,7 @@ def _places(drive: Drive, reads: tuple[Poll, ...]) -> Iterator[Word]:
     """Each word that the block keeps, and the number of the read that brings it."""
     for address in sorted(fast_words(drive) | slow_words(drive)):
         for number, read in enumerate(reads, 1):
-            if read.address <= address < read.address + read.words:
+            if address in read.addresses:
                 yield replace(word_input(drive, address), number=number, index=address - read.address)
 
 
@@ -559,12 +534,12 @@ def _plate(drive: Drive, read: Poll) -> list[Masked]:
     return [Masked(each.register - read.address, each.mask, each.value) for each in patterns]
 
 
-def _commanded_by(drive: Drive, number: dict[int, int], told: Decoded) -> InCommand | None:
+def _commanded_by(drive: Drive, told: Decoded) -> InCommand | None:
     bus = status(drive).by_bus
     if not bus.patterns:
         return None
-    reads, holds = _numbers(number, registers(bus.patterns)), [told.holds(each) for each in bus.patterns]
-    return InCommand(holds, reads, context.source_of(drive, bus.said.source))
+    holds = [told.holds(each) for each in bus.patterns]
+    return InCommand(holds, context.source_of(drive, bus.said.source))
 
 
 def _own_maximum(drive: Drive) -> Maximum | None:
@@ -596,13 +571,6 @@ def _warned(drive: Drive) -> Faulty | None:
         return None
     word, bits = word_input(drive, warnings.register), warnings.bits
     return Faulty(word, [], bits_of([bits]), 1 << bits.first) if bits else Faulty(word, [])
-
-
-def _fault_reads(drive: Drive, number: dict[int, int]) -> list[int]:
-    """The reads that show whether there is a fault, and which."""
-    fault = _fault(drive)
-    words = [fault.word] if fault.word else fault.words
-    return _numbers(number, (*registers(status(drive).shows("fault")), *(word.address for word in words)))
 
 
 def pin_of(shows: str) -> Pin:

@@ -3,14 +3,15 @@
 In the form of part.yaml; what they must show comes from the map alone.
 """
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from typing import Any
 
 from driveblocks.maps.form import is_bit
 from driveblocks.maps.model import Command, Drive
-from driveblocks.maps.polls import fast_words, other_words, polls, schedule, slow_words, speed_words, young_words
+from driveblocks.maps.polls import fast_words, other_words, polls, schedule, slow_words
 from driveblocks.meaning.pattern import of_write
-from driveblocks.meaning.status import registers, status
+from driveblocks.meaning.roles import roles
+from driveblocks.meaning.status import status
 from driveblocks.modbus.layout import COIL_ON
 from driveblocks.reference.naming import word_pin
 from driveblocks.simulator.move import MOTIONS
@@ -155,13 +156,13 @@ class _Known:
         self.proved = (self.proved or self.speed) and self._all("proof")
         self.settled = self.settled or self._all("verify")
         found: Shows = {
-            "StatusAgeMs": max(self.ages[each] for each in roles["status"]),
-            "MeasuresAgeMs": max((self.ages[each] for each in roles["measures"]), default=NEVER_MS),
+            "StatusAgeMs": max(self.ages[each] for each in roles["fast"]),
+            "MeasuresAgeMs": max((self.ages[each] for each in roles["measure"]), default=NEVER_MS),
             "FaultAgeMs": max((self.ages[each] for each in roles["fault"]), default=0),
             "ProofRead": self.proved, "SpeedRead": self.speed, "FaultRead": self._all("fault"),
             "SettingsRead": self.settled, "Doubted": self.doubted,
         }  # fmt: skip
-        more = {"master": "MasterRead", "states": "StatesRead", "verify": "MeaningRead"}
+        more = {"by_bus": "MasterRead", "state": "StatesRead", "verify": "MeaningRead"}
         found |= {name: self._all(role) for role, name in more.items() if roles[role]}
         return found | {f"Young{each + 1}": self.ages[each] <= STALE_MS for each in sorted(roles["young"])}
 
@@ -182,29 +183,8 @@ class _Known:
 
 
 def _reads_of(drive: Drive) -> dict[str, set[int]]:
-    """What each read is needed for."""
-    operation, faults = drive.operation, drive.faults
-    shows = status(drive)
-    shown = list(registers(shows.shows("fault")))
-    if faults.present is not None:
-        shown.append(faults.present)
-    elif faults.bits is not None:
-        shown += range(faults.bits.first, faults.bits.last + 1)
-    own = [operation.own_maximum.register] if operation.own_maximum else []
-    needed: dict[str, Iterable[int]] = {
-        "status": fast_words(drive),
-        "measures": [each.register for each in operation.measures],
-        "young": young_words(drive),
-        "fault": shown,
-        "proof": registers(shows.standstill.patterns),
-        "speed": speed_words(drive),
-        "verify": [*registers(shows.verify), *own],
-        "master": registers(shows.by_bus.patterns),
-        "states": registers(each.pattern for each in shows.states),
-    }
-    spans = (range(each.address, each.address + each.words) for each in polls(drive))
-    at = {address: number for number, span in enumerate(spans) for address in span}
-    return {role: {at[each] for each in found} for role, found in needed.items()}
+    """What each read is needed for; here they count from 0."""
+    return {role: {each - 1 for each in numbers} for role, numbers in vars(roles(drive)).items()}
 
 
 # ---------------------------------------------------------------- what is written
