@@ -7,11 +7,12 @@ from typing import Any
 import pytest
 from tests import shipped
 
+from driveblocks.meaning.measure import measures, own_maximum
 from driveblocks.meaning.roles import roles
 from driveblocks.meaning.serial import serial
 from driveblocks.meaning.status import status
 
-MEANINGS = (serial, status, roles)
+MEANINGS = (serial, status, roles, measures, own_maximum)
 
 
 def held(value: Any, path: str) -> Iterator[tuple[str, Any]]:

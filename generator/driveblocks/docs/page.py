@@ -13,6 +13,7 @@ from driveblocks.maps import conduct, inventory, plan, rivals, trust
 from driveblocks.maps.form import address_text
 from driveblocks.maps.model import Absence, Drive, Erratum, Notice, Setting
 from driveblocks.maps.polls import Poll, polls, schedule, wire_ms
+from driveblocks.meaning.measure import PINS
 from driveblocks.meaning.serial import serial
 from driveblocks.meaning.status import status
 from driveblocks.platforms import CANONICAL, EXPORTS, PLATFORMS, cost
@@ -21,7 +22,7 @@ from driveblocks.platforms.part import Part
 from driveblocks.platforms.port import adapter, first_motor
 from driveblocks.platforms.record import Platform
 from driveblocks.render import context
-from driveblocks.render.drive import MEASURES, drive_block, pin_of
+from driveblocks.render.drive import drive_block, pin_of
 from driveblocks.render.environment import render
 from driveblocks.render.library import File
 from driveblocks.render.motor import SCAN_MS, motor
@@ -321,7 +322,7 @@ def _reported(drive: Drive) -> list[str]:
 
 def _shown(drive: Drive, cell: str) -> list[str]:
     """The pins that show a value, as it is or once its scale is found out."""
-    return [f"`{pin_of(shows).pin}`" for shows in MEASURES if _shows(drive, shows) == cell]
+    return [f"`{pin_of(shows).pin}`" for shows in PINS if _shows(drive, shows) == cell]
 
 
 def _conduct(drive: Drive) -> list[tuple[str, str]]:

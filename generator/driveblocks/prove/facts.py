@@ -6,8 +6,7 @@ Taken from the map itself, not from what the generator made of it.
 from collections.abc import Iterable, Iterator, Mapping
 
 from driveblocks.maps.form import is_bit
-from driveblocks.maps.model import Command, Drive, Measured, Step
-from driveblocks.maps.names import UNIT_NAMES
+from driveblocks.maps.model import Command, Drive, Step
 from driveblocks.maps.pair import places, whole
 from driveblocks.maps.plan import writes_by
 from driveblocks.maps.polls import Poll, fast_words, fault_words, polls, schedule, slow_words
@@ -15,6 +14,7 @@ from driveblocks.maps.revision import checked
 from driveblocks.maps.rivals import first_reads, refusals
 from driveblocks.maps.trust import second_hand
 from driveblocks.maps.view import error_number
+from driveblocks.meaning.measure import PINS, Measure, measures, own_maximum
 from driveblocks.meaning.pattern import Pattern, bits_of
 from driveblocks.meaning.roles import roles
 from driveblocks.meaning.serial import serial
@@ -22,14 +22,9 @@ from driveblocks.meaning.status import status
 from driveblocks.modbus.layout import COIL_ON
 from driveblocks.render.context import word_input
 from driveblocks.render.decoded import Decoded
-from driveblocks.render.drive import MEASURES
+from driveblocks.render.drive import STATUS
 from structured_text.language.writing import word
 
-PINS = {
-    "running": "Running", "reverse": "Reverse", "at_speed": "AtSpeed", "zero_speed": "ZeroSpeed", "warning": "Warning",
-    "fault": "Fault", "limit": "Diagnosis.LimitActive",
-}  # fmt: skip
-"""What a drive can show -> the pin."""
 MOTIONS = ("run_forward", "run_reverse", "jog_forward", "jog_reverse")
 STOPS = ("stop", "quick_stop", "coast_stop", "jog_stop")
 SENT = dict(
@@ -72,7 +67,7 @@ def facts(drive: Drive) -> dict[str, str]:
         "keep": "Settings.KeepWord" if any(_kept(drive, one) for one in commands.values()) else word(0),
     }
     shown = {one.name for one in shows.shown}
-    measured = {one.shows for one in drive.operation.measures}
+    measured = {one.name for one in measures(drive)}
     for pin in ("reverse", "fault", "warning", "at_speed", "zero_speed"):
         computed = pin.endswith("speed") and "output_frequency" in measured
         found[f"shows_{pin}"] = str(pin in shown or computed).upper()
@@ -246,8 +241,8 @@ def _shown(drive: Drive) -> dict[str, str]:
     for one in shows.shown:
         holds = _any(_holds(drive, each) for each in one.patterns)
         said.append(f"({_any(Decoded(drive).holds(each) for each in one.patterns)}) = ({holds})")
-        if one.name in PINS:
-            pins.append(f"{PINS[one.name]} = ({'Running AND ' * (one.name == 'at_speed')}({holds}))")
+        if one.name in STATUS:
+            pins.append(f"{STATUS[one.name]} = ({'Running AND ' * (one.name == 'at_speed')}({holds}))")
     tolerant = any(each.kind == "two_byte_count" for each in drive.tolerances)
     told = [
         f"Slot.TwoByteCount = {tolerant}".upper(),
@@ -271,17 +266,16 @@ def _shown(drive: Drive) -> dict[str, str]:
         "told": _every(told),
         "at_speed": "(Running OR NOT AtSpeed)" if shows.shows("at_speed") else NEAR,
         "unchecked": f"(ManualChecked <> {checked(drive)})" if second_hand(drive) else "FALSE",
-        "other_maximum": "(Reads.SettingsRead AND NOT SameMaximum)" if drive.operation.own_maximum else "FALSE",
-        "valid": _every(_valid(drive, one) for one in drive.operation.measures),
+        "other_maximum": "(Reads.SettingsRead AND NOT SameMaximum)" if own_maximum(drive) else "FALSE",
+        "valid": _every(_valid(drive, one) for one in measures(drive)),
     }
 
 
-def _valid(drive: Drive, one: Measured) -> str:
+def _valid(drive: Drive, one: Measure) -> str:
     """When a measure may be shown as valid: it is young, and its scale is known."""
-    reads, row, (name, unit, setting) = enumerate(polls(drive), 1), drive.register_at(one.register), MEASURES[one.shows]
-    number = next(number for number, poll in reads if poll.address <= one.register < poll.address + poll.words)
-    known = row is not None and row.scale is not None and UNIT_NAMES.get(row.unit or "") == unit
-    scaled = "TRUE" if known else f"(Settings.{setting} > 0.0) AND (Settings.{setting} <= 1.0E6)"
+    name, _, setting = PINS[one.name]
+    number = next(number for number, poll in enumerate(polls(drive), 1) if one.register in poll.addresses)
+    scaled = "TRUE" if one.quantity.factors else f"(Settings.{setting} > 0.0) AND (Settings.{setting} <= 1.0E6)"
     return f"NOT Diagnosis.{name}Valid OR CommOk AND (Reads.Age{number} <= Usual.StaleMs) AND {scaled}"
 
 

@@ -13,7 +13,6 @@ from driveblocks.maps.model import (
     Command,
     Drive,
     Register,
-    Scale,
     Section,
     Value,
 )
@@ -21,6 +20,7 @@ from driveblocks.maps.names import UNIT_NAMES, symbol
 from driveblocks.maps.plan import READ_WORDS, WRITE_WORDS, Plan, Words, holding
 from driveblocks.maps.revision import revision
 from driveblocks.meaning.pattern import WORD, Pattern, bits_of
+from driveblocks.meaning.quantity import Quantity, of_row
 from driveblocks.meaning.serial import Broadcast, Serial, serial
 from driveblocks.meaning.status import registers, status
 from driveblocks.render.expression import Test, is_real
@@ -250,11 +250,7 @@ class Row:
     note: str
     source: str
     parts: tuple[Part, ...] = ()
-    unit: str | None = None
-    scale: Scale | None = None
-    signed: bool = False
-    pair: bool = False
-    """Its value has 32 bits."""
+    quantity: Quantity | None = None
     kind: str = ""
     """The type of its number."""
     read: bool = True
@@ -274,8 +270,8 @@ def scales(drive: Drive) -> Iterator[Row]:
     for section, row in drive.registers():
         if row.scale is not None and row.unit is not None:
             named = _register(drive, section, row, UNIT_NAMES[row.unit])
-            pair, kind = row.words is not None, "DINT" if row.signed else "UDINT" if row.words else "UINT"
-            yield replace(named, unit=row.unit, scale=row.scale, signed=row.signed, pair=pair, kind=kind)
+            kind = "DINT" if row.signed else "UDINT" if row.words else "UINT"
+            yield replace(named, quantity=of_row(row, row.address.first), kind=kind)
 
 
 def _register(drive: Drive, section: Section, row: Register, suffix: str) -> Row:

@@ -7,10 +7,9 @@ from functools import reduce
 from itertools import pairwise
 from operator import or_
 
-from driveblocks.maps import model, names
+from driveblocks.maps import names
 from driveblocks.maps.form import address_text, is_bit
-from driveblocks.maps.model import Command, Drive, Scale, kept
-from driveblocks.maps.pair import places
+from driveblocks.maps.model import Command, Drive, kept
 from driveblocks.maps.plan import writes_by
 from driveblocks.maps.polls import (
     Poll,
@@ -25,7 +24,8 @@ from driveblocks.maps.revision import checked
 from driveblocks.maps.rivals import First, first_reads, refusals
 from driveblocks.maps.trust import second_hand
 from driveblocks.maps.view import error_number
-from driveblocks.meaning.pattern import Pattern, bits_of, of_condition
+from driveblocks.meaning.measure import PINS, Measure, measures, own_maximum
+from driveblocks.meaning.pattern import Pattern, bits_of
 from driveblocks.meaning.roles import Roles, roles
 from driveblocks.meaning.serial import Serial, serial
 from driveblocks.meaning.status import Sign, status
@@ -45,21 +45,6 @@ CONSTANTS = {
     "fault_reset": "RESET_FAULT",
 }  # fmt: skip
 """Command -> the constant of that number, as VFD_Control has it."""
-MEASURES = {
-    "output_frequency": ("OutputFrequency", "Hz", "FrequencyScale"),
-    "output_current": ("OutputCurrent", "A", "CurrentScale"),
-    "output_voltage": ("OutputVoltage", "V", "VoltageScale"),
-    "dc_bus_voltage": ("DcBusVoltage", "V", "DcVoltageScale"),
-    "output_power": ("OutputPower", "KW", "PowerScale"),
-    "output_speed": ("OutputSpeed", "Rpm", ""),
-    "output_torque": ("OutputTorque", "Percent", ""),
-    "relative_power": ("RelativePower", "Percent", ""),
-    "drive_temperature": ("DriveTemperature", "DegC", ""),
-    "motor_temperature": ("MotorTemperature", "DegC", ""),
-    "operating_time": ("OperatingTime", "H", ""),
-    "energy": ("Energy", "KWh", ""),
-}
-"""What a register can show -> the pin, its unit, and the setting that replaces a scale, where there is one."""
 UNSIGNED = ("output_frequency", "output_speed")
 """What is shown without its sign, which is the direction."""
 PINNED = ("output_frequency", "output_current")
@@ -166,7 +151,7 @@ class Maximum:
     """The word of the drive's own maximum frequency, its scale and the function that applies it."""
 
     word: Word
-    scale: Scale | None
+    scale: Decimal | None
     function: str
     source: str
 
@@ -204,7 +189,7 @@ class Measured:
     word: Word
     low: Word | None
     """The low word of a value of 32 bits, whose high one is the word."""
-    scale: Scale | None
+    scale: Decimal | None
     function: str
     when: str | None
     """What the scale holds for; of several, one of these."""
@@ -368,8 +353,8 @@ def _showing(drive: Drive, number: dict[int, int], told: Decoded) -> Showing:
         says={one.name: [told.holds(each) for each in one.patterns] for one in sorted(shown, key=_running_first)},
         verify=[_tested(drive, each) for each in verify],
         verified=[told.holds(each) for each in verify],
-        measures={one.shows: _measure(drive, one, told, number) for one in drive.operation.measures},
-        pins={shows: pin_of(shows) for shows in MEASURES},
+        measures={one.name: _measure(drive, one, told, number) for one in measures(drive)},
+        pins={shows: pin_of(shows) for shows in PINS},
         commanded_by=_commanded_by(drive, told),
         own_maximum=_own_maximum(drive),
         decoders=told.used,
@@ -543,13 +528,13 @@ def _commanded_by(drive: Drive, told: Decoded) -> InCommand | None:
 
 
 def _own_maximum(drive: Drive) -> Maximum | None:
-    maximum = drive.operation.own_maximum
+    maximum = own_maximum(drive)
     row = drive.register_at(maximum.register) if maximum else None
     if maximum is None or row is None:
         return None
     function = names.block(drive.prefix, names.symbol(row) + names.UNIT_NAMES[row.unit or "Hz"])
-    source = context.source_of(drive, maximum.source)
-    return Maximum(word_input(drive, maximum.register), row.scale, function, source)
+    source = context.source_of(drive, maximum.said.source)
+    return Maximum(word_input(drive, maximum.register), maximum.quantity.factor, function, source)
 
 
 def _tested(drive: Drive, one: Pattern) -> Test:
@@ -575,40 +560,36 @@ def _warned(drive: Drive) -> Faulty | None:
 
 def pin_of(shows: str) -> Pin:
     """Where a drive block shows a measure: two have pins of their own, all say in Diagnosis whether they are valid."""
-    name, unit, setting = MEASURES[shows]
+    name, unit, setting = PINS[shows]
     where = "" if shows in PINNED else "Diagnosis."
     return Pin(f"{where}{name}{unit}", f"{name}Valid", unit, setting)
 
 
-def _measure(drive: Drive, one: model.Measured, told: Decoded, number: dict[int, int]) -> Measured:
-    row = drive.register_at(one.register)
+def _measure(drive: Drive, one: Measure, told: Decoded, number: dict[int, int]) -> Measured:
+    row, has = drive.register_at(one.register), one.quantity
     assert row is not None  # noqa: S101  (a checked map lists the registers that it measures)
-    scale = row.scale if names.UNIT_NAMES.get(row.unit or "") == MEASURES[one.shows][1] else None
-    holds = [told.holds(of_condition(each)) for each in scale.conditions] if scale else []
-    shown = pin_of(one.shows)
-    high, low = places(row, one.register) if row.words else (one.register, one.register)
+    holds = [told.holds(each.when) for each in has.factors if each.when]
+    shown = pin_of(one.name)
     return Measured(
         pin=shown.pin,
         valid=shown.valid,
         unit=shown.unit,
         setting=shown.setting,
-        word=word_input(drive, high),
-        low=word_input(drive, low) if row.words else None,
-        scale=scale,
-        function=names.block(drive.prefix, names.symbol(row) + MEASURES[one.shows][1]),
+        word=word_input(drive, has.high),
+        low=word_input(drive, has.low) if has.pair else None,
+        scale=has.factor,
+        function=names.block(drive.prefix, names.symbol(row) + shown.unit),
         when=" OR ".join(holds) if len(holds) < 2 else f"({' OR '.join(holds)})",
-        known=_known(drive, scale, one.register, number),
-        choices=[(hold, factor) for hold, (_, factor) in zip(holds, scale.choices, strict=True)]
-        if scale and scale.otherwise
-        else [],
-        signed=row.signed,
-        magnitude=row.signed and one.shows in UNSIGNED,
+        known=_known(drive, one, number),
+        choices=list(zip(holds, (each.value for each in has.factors), strict=True)) if has.factors[1:] else [],
+        signed=has.signed,
+        magnitude=has.signed and one.name in UNSIGNED,
     )
 
 
-def _known(drive: Drive, scale: Scale | None, register: int, number: dict[int, int]) -> str:
+def _known(drive: Drive, one: Measure, number: dict[int, int]) -> str:
     """Whether what a scale depends on was read: with what the reference depends on, or by itself; empty: with it."""
-    asked = {each.register for each in scale.conditions} if scale else set()
-    own = sorted({number[each] for each in asked - meaning_words(drive)} - {number[register]})
+    asked = {each.when.register for each in one.quantity.factors if each.when}
+    own = sorted({number[each] for each in asked - meaning_words(drive)} - {number[one.register]})
     verified = ["Reads.SettingsRead"] if asked & meaning_words(drive) else []
     return " AND ".join(verified + [f"Reads.Young{each}" for each in own])

@@ -8,7 +8,6 @@ from itertools import chain
 import jinja2
 
 from driveblocks.maps import form, view
-from driveblocks.meaning.pattern import of_condition
 from driveblocks.modbus.checksum import MODBUS
 from driveblocks.render import constants, expression, results
 from structured_text.language import writing
@@ -59,7 +58,6 @@ def environment() -> jinja2.Environment:
         byte=writing.byte,
         comment=writing.comment,
         span=form.span_text,
-        condition=of_condition,
         address=form.address_text,
         assign=assign,
         passed=passed,

@@ -11,7 +11,9 @@ from driveblocks.maps.model import Drive, Reference
 from driveblocks.maps.pair import places, whole
 from driveblocks.maps.plan import Words, dialect, most, plan
 from driveblocks.maps.rivals import own_address
+from driveblocks.meaning.measure import measures
 from driveblocks.meaning.pattern import WORD, Pattern, of_write
+from driveblocks.meaning.quantity import quantity
 from driveblocks.meaning.serial import serial
 from driveblocks.meaning.status import registers, status
 from driveblocks.modbus.layout import Dialect
@@ -190,7 +192,7 @@ def _faces(drive: Drive, measured: frozenset[int]) -> dict[tuple[Situation, str 
 
 
 def _gauges(drive: Drive, habits: Habits) -> tuple[Gauge, ...]:
-    shows = {at: each.shows for each in drive.operation.measures for at in whole(drive, each.register)}
+    shows = {at: each.name for each in measures(drive) for at in whole(drive, each.register)}
     known = status(drive)
     states = (one.pattern for one in known.states)
     told = registers((*(each for one in known.shown for each in one.patterns), *states))
@@ -203,18 +205,13 @@ def _gauges(drive: Drive, habits: Habits) -> tuple[Gauge, ...]:
 
 
 def _gauge(drive: Drive, habits: Habits, register: int, shows: str) -> Gauge:
-    row = drive.register_at(register)
-    milli, signed = max(1, int(1000 * _factor(drive, habits, register))), bool(row and row.signed)
-    if row is None or row.words is None:
-        return Gauge(register, shows, milli, signed)
-    high = register == places(row, whole(drive, register)[0])[0]
-    return Gauge(register, shows, milli, signed, 16 if high else 0)
+    has = quantity(drive, register)
+    shift = (16 if register == has.high else 0) if has.pair else None
+    return Gauge(register, shows, max(1, int(1000 * _factor(drive, habits, register))), has.signed, shift)
 
 
 def _factor(drive: Drive, habits: Habits, register: int) -> Decimal:
-    row = drive.register_at(register)
-    scale = row.scale.factor if row and row.scale else habits.scale
-    return habits.scales.get(register, scale)
+    return habits.scales.get(register, quantity(drive, register).factor or habits.scale)
 
 
 def _limits(drive: Drive) -> tuple[Limit, ...]:

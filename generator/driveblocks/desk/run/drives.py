@@ -14,7 +14,8 @@ from driveblocks.desk.run.controller import Controller
 from driveblocks.maps.collection import Source
 from driveblocks.maps.model import Drive
 from driveblocks.maps.problem import Refused
-from driveblocks.render.drive import MEASURES, drive_block
+from driveblocks.meaning.measure import PINS, measures
+from driveblocks.render.drive import drive_block
 from driveblocks.simulator.drive import SimulatedDrive
 from driveblocks.simulator.habits import Habits
 
@@ -78,12 +79,8 @@ def open_scales(drive: Drive) -> dict[str, int]:
     reference = drive.register_at(operation.reference.register, "w")
     if operation.reference.means == "frequency" and not (reference and reference.scale):
         found[REFERENCE] = operation.reference.register
-    shown: dict[str, int] = {each.shows: each.register for each in operation.measures}
-    for shows, (_, _, name) in MEASURES.items():
-        row = drive.register_at(shown[shows]) if shows in shown else None
-        if row and not row.scale:
-            found[name] = shown[shows]
-    return found
+    unscaled = {each.name: each.register for each in measures(drive) if not each.quantity.factors}
+    return found | {name: unscaled[shows] for shows, (_, _, name) in PINS.items() if shows in unscaled}
 
 
 def words(named: Sequence[str]) -> list[Word]:

@@ -16,7 +16,7 @@ from driveblocks.render.environment import strict
 from driveblocks.simulator.copies import RPM_OF_ONE_PAIR
 from driveblocks.simulator.habits import Habits
 from driveblocks.simulator.move import MOTIONS, STATE, STOPS, Move, Need
-from driveblocks.simulator.plate import chosen
+from driveblocks.simulator.plate import chosen, own_maximum_word
 from driveblocks.simulator.table import Gauge, Table, table
 from structured_text.language.writing import byte, comment, word
 
@@ -119,15 +119,7 @@ def _places(drive: Drive, made: Table) -> dict[int, int]:
         words.setdefault(made.reference.above, 0)
     for pattern in status(drive).settled:
         words[pattern.register] = words.get(pattern.register, 0) & ~pattern.mask | pattern.value
-    if drive.operation.own_maximum:
-        words[drive.operation.own_maximum.register] = _own_maximum(drive)
-    return words
-
-
-def _own_maximum(drive: Drive) -> int:
-    own = drive.operation.own_maximum
-    row = drive.register_at(own.register) if own else None
-    return round(MAXIMUM_HZ / float(row.scale.factor)) if row and row.scale else 0
+    return words | own_maximum_word(drive, MAXIMUM_HZ)
 
 
 def _reference(made: Table, at: dict[int, int]) -> Context:

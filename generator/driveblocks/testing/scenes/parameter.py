@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 
 from driveblocks.maps.model import Drive
+from driveblocks.meaning.measure import own_maximum
 from driveblocks.meaning.status import registers, status
 from driveblocks.reference.permission import Judge, Write, readable, writable
 from driveblocks.testing.code import NUMBERS
@@ -106,7 +107,7 @@ def place_of(drive: Drive) -> int | None:
 
 def meant(drive: Drive) -> frozenset[int]:
     """Registers whose words the drive block looks at."""
-    own = drive.operation.own_maximum
+    own = own_maximum(drive)
     return frozenset(registers(status(drive).settled)) | ({own.register} if own else frozenset())
 
 
