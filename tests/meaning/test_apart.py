@@ -8,11 +8,12 @@ import pytest
 from tests import shipped
 
 from driveblocks.meaning.measure import measures, own_maximum
+from driveblocks.meaning.reference import reference
 from driveblocks.meaning.roles import roles
 from driveblocks.meaning.serial import serial
 from driveblocks.meaning.status import status
 
-MEANINGS = (serial, status, roles, measures, own_maximum)
+MEANINGS = (serial, status, roles, measures, own_maximum, reference)
 
 
 def held(value: Any, path: str) -> Iterator[tuple[str, Any]]:

@@ -9,6 +9,7 @@ from driveblocks.maps.conduct import reply_delay
 from driveblocks.maps.form import address_text
 from driveblocks.maps.model import Drive
 from driveblocks.meaning.measure import PINS
+from driveblocks.meaning.reference import reference
 from driveblocks.meaning.status import status
 from driveblocks.render.drive import drive_block, pin_of
 from structured_text.language.tree import StructSpec, TypeDecl, VarDecl
@@ -78,11 +79,11 @@ def _zero(said: str, unit: str) -> str:
 
 
 def _settings(drive: Drive) -> Iterator[tuple[str, str]]:
-    block = drive_block(drive)
-    word = address_text(block.ordering.reference)
+    block, speed = drive_block(drive), reference(drive)
+    word = address_text(speed.register)
     missing = f"required: the manual gives no scale of {word}"
-    yield "ReferenceScale", MAP_HAS if block.ordering.scaled or block.ordering.percent else missing
-    turns = f"required: {word} is in r/min" if block.ordering.in_rpm else "no use: the reference is not in r/min"
+    yield "ReferenceScale", MAP_HAS if speed.scaled else missing
+    turns = f"required: {word} is in r/min" if speed.in_rpm else "no use: the reference is not in r/min"
     yield "PolePairs", turns
     for shows, (_, _, setting) in PINS.items():
         measure = block.showing.measures.get(shows)

@@ -14,6 +14,7 @@ from driveblocks.maps.form import address_text
 from driveblocks.maps.model import Absence, Drive, Erratum, Notice, Setting
 from driveblocks.maps.polls import Poll, polls, schedule, wire_ms
 from driveblocks.meaning.measure import PINS
+from driveblocks.meaning.reference import reference
 from driveblocks.meaning.serial import serial
 from driveblocks.meaning.status import status
 from driveblocks.platforms import CANONICAL, EXPORTS, PLATFORMS, cost
@@ -197,12 +198,12 @@ def _wires(drive: Drive) -> dict[str, str]:
 
 def _swapped(drive: Drive) -> dict[str, str]:
     """What a block of this family wants otherwise than that of another."""
-    first, line = motor(drive), serial(drive)
+    first, line, speed = motor(drive), serial(drive), reference(drive)
     return {
         "prefix": drive.prefix,
-        "full": f"required: what {first.maximum} says" if first.percent else "no use",
-        "scale": "required" if first.unscaled else "no use",
-        "pairs": "required" if first.in_rpm else "no use",
+        "full": f"required: what {speed.maximum} says" if speed.percent else "no use",
+        "scale": "no use" if speed.scaled else "required",
+        "pairs": "required" if speed.in_rpm else "no use",
         "reset": "yes" if first.has_reset else "no",
         "cannot": ", ".join(words for does, words in ABILITIES.items() if not can(drive, does)) or "nothing",
         "units": f"{line.lowest} to {line.highest}",

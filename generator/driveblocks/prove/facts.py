@@ -7,7 +7,6 @@ from collections.abc import Iterable, Iterator, Mapping
 
 from driveblocks.maps.form import is_bit
 from driveblocks.maps.model import Command, Drive, Step
-from driveblocks.maps.pair import places, whole
 from driveblocks.maps.plan import writes_by
 from driveblocks.maps.polls import Poll, fast_words, fault_words, polls, schedule, slow_words
 from driveblocks.maps.revision import checked
@@ -16,6 +15,7 @@ from driveblocks.maps.trust import second_hand
 from driveblocks.maps.view import error_number
 from driveblocks.meaning.measure import PINS, Measure, measures, own_maximum
 from driveblocks.meaning.pattern import Pattern, bits_of
+from driveblocks.meaning.reference import reference
 from driveblocks.meaning.roles import roles
 from driveblocks.meaning.serial import serial
 from driveblocks.meaning.status import status
@@ -45,15 +45,15 @@ def facts(drive: Drive) -> dict[str, str]:
     """The facts of a family by the names under which the rules have them, as ST."""
     commands: dict[str, Command] = {one.does: one for one in drive.operation.commands}
     stop, shows = commands["stop"], status(drive)
-    row = drive.register_at(drive.operation.reference.register, "w")
+    speed = reference(drive)
     found = {
         "P": drive.prefix,
         "lowest": str(serial(drive).lowest),
         "highest": str(serial(drive).highest),
         "write": str(writes_by(drive, stop.register)),
-        "reference": word(drive.operation.reference.register),
+        "reference": word(speed.register),
         "written": _written(drive),
-        "sent_word": f"Slot.Ask[1].Words[{places(row, 1)[1] - 1 if row and row.words else 0}]",
+        "sent_word": f"Slot.Ask[1].Words[{speed.quantity.low - speed.register}]",
         "holds_reference": _is_reference(drive),
         "standstill": _every(_holds(drive, each) for each in shows.standstill.patterns),
         "proof_since": _every(f"Reads.Since{number}" for number in roles(drive).proof),
@@ -117,20 +117,19 @@ def _functions(drive: Drive) -> set[int]:
 
 
 def _is_reference(drive: Drive) -> str:
-    reference = drive.operation.reference.register
-    return f"(Slot.Ask[1].Address = {word(reference)}){_by(drive, reference)}"
+    register = reference(drive).register
+    return f"(Slot.Ask[1].Address = {word(register)}){_by(drive, register)}"
 
 
 def _written(drive: Drive) -> str:
     """The function and the quantity of a write: one word, or two of a reference of 32 bits."""
     codes = _any(f"Slot.Ask[1].FunctionCode = {code}" for code in sorted(_functions(drive)))
-    if len(whole(drive, drive.operation.reference.register)) == 1:
+    has = reference(drive)
+    if not has.pair:
         return f"({codes}) AND (Slot.Ask[1].Quantity = 1)"
-    row = drive.register_at(drive.operation.reference.register, "w")
-    high = 1 if row is not None and row.order == "low_first" else 0
-    above, below, is_ = f"Slot.Ask[1].Words[{high}]", f"Slot.Ask[1].Words[{1 - high}]", _is_reference(drive)
-    zero = f"({above} = {word(0)})"
-    if drive.operation.by_sign:
+    above, below = (f"Slot.Ask[1].Words[{each - has.register}]" for each in (has.quantity.high, has.quantity.low))
+    zero, is_ = f"({above} = {word(0)})", _is_reference(drive)
+    if has.signed:
         negative = f"({below} AND {word(SIGN)}) <> {word(0)}"
         zero = f"({zero} AND NOT ({negative}) OR ({above} = {word(ALL)}) AND ({negative}))"
     pair = f"(Slot.Ask[1].Quantity = 2) AND {zero}"
@@ -281,17 +280,11 @@ def _valid(drive: Drive, one: Measure) -> str:
 
 def _reference(drive: Drive) -> dict[str, str]:
     """When the errors of a reference are so that depend on what the map knows of its scale."""
-    row = drive.register_at(drive.operation.reference.register, "w")
-    spec = drive.operation.reference
-    scaled = (row is not None and row.scale is not None) or spec.full_scale is not None
-    percent = scaled and (
-        spec.means == "percent_of_maximum" or (spec.means.endswith("full_scale") and not spec.full_scale_hz)
-    )
-    usable = "(ReferenceScale > 0.0) AND (ReferenceScale <= 1.0E6)"
-    if scaled and spec.means == "speed":
+    has = reference(drive)
+    scaled, usable = has.scaled, "(ReferenceScale > 0.0) AND (ReferenceScale <= 1.0E6)"
+    if has.in_rpm:
         scaled, usable = False, "(PolePairs >= 1) AND (PolePairs <= 100)"
-    by_sign = drive.operation.by_sign
-    signed = row is not None and row.signed and (by_sign or not row.words)
+    by_sign, signed = has.signed, has.quantity.signed and (has.signed or not has.pair)
     negative = "({word} AND WORD#16#8000) <> WORD#16#0000"
     word_sign = f"(Value = WORD#16#0000) OR (({negative.format(word='Value')}) = {'Reverse' if by_sign else 'FALSE'})"
     sent = negative.format(word="Control.SentWord")
@@ -303,7 +296,7 @@ def _reference(drive: Drive) -> dict[str, str]:
         "sent_sign": reverses if by_sign else "TRUE",
         "scale_known": "TRUE" if scaled else f"({usable})",
         "no_scale": "FALSE" if scaled else f"(ErrorID = 15) AND NOT ({usable})",
-        "no_full_scale": "TRUE" if percent else "NOT ((FullScaleHz >= 0.0) AND (FullScaleHz <= 0.0))",
+        "no_full_scale": "TRUE" if has.percent else "NOT ((FullScaleHz >= 0.0) AND (FullScaleHz <= 0.0))",
     }
 
 
@@ -324,7 +317,7 @@ def _holds_ms(drive: Drive) -> Iterator[str]:
 
 def _command_registers(drive: Drive) -> set[int]:
     written = {write.register for one in drive.operation.commands for write in one.writes}
-    return written | {*whole(drive, drive.operation.reference.register)}
+    return written | {*reference(drive).registers}
 
 
 def _beside(register: int) -> str:

@@ -3,7 +3,6 @@
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from fractions import Fraction
 from typing import Literal
 
 from driveblocks import __version__
@@ -21,6 +20,7 @@ from driveblocks.maps.plan import READ_WORDS, WRITE_WORDS, Plan, Words, holding
 from driveblocks.maps.revision import revision
 from driveblocks.meaning.pattern import WORD, Pattern, bits_of
 from driveblocks.meaning.quantity import Quantity, of_row
+from driveblocks.meaning.reference import reference
 from driveblocks.meaning.serial import Broadcast, Serial, serial
 from driveblocks.meaning.status import registers, status
 from driveblocks.render.expression import Test, is_real
@@ -438,63 +438,15 @@ def _told(one: Command, stop: Command, keeps: dict[int, Keep]) -> Told:
     return Told(one.register, bits, keeps.get(one.register))
 
 
-@dataclass(frozen=True)
-class Referred:
+def referred(drive: Drive) -> dict[str, object]:
     """For Reference."""
-
-    source: str
-    register: int
-    percent: bool
-    """It is a part of FullScaleHz, which is 100 %."""
-    maximum: str
-    """What is 100 %."""
-    scaled: bool
-    """How many counts there are is known."""
-    ratio: Fraction
-    """Counts per hertz, or of 100 %."""
-    exact: bool
-    """A REAL holds it."""
-    verify: tuple[Pattern, ...]
-    in_rpm: bool
-    """It counts in r/min, which are 60 per Hz of a motor with one pole pair."""
-    signed: bool
-    """A negative word reverses."""
-    highest: int
-    highest_why: str
-    pair: str | None
-    """Of a reference of 32 bits, the word that comes first; its high word is 0."""
-
-
-def reference(drive: Drive) -> Referred:
-    """How a speed becomes a word."""
-    spec = drive.operation.reference
-    row = drive.register_at(spec.register, "w")
-    assert row is not None  # noqa: S101  (a checked map lists its reference register)
-    percent = spec.means == "percent_of_maximum" or (spec.full_scale is not None and spec.full_scale_hz is None)
-    ratio = (100 if percent else 1) / Fraction(row.scale.factor if row.scale else 1)
-    if spec.full_scale is not None:
-        ratio = spec.full_scale / Fraction(spec.full_scale_hz or 1)
-    in_rpm = spec.means == "speed" and row.scale is not None
-    ratio *= 60 if in_rpm else 1
-    scaled = row.scale is not None or spec.full_scale is not None
-    highest, why = (
-        (row.range.max, "the range of the register") if row.range else (32767 if row.signed else 65535, "the word")
-    )
-    return Referred(
-        source=source_of(drive, spec.source),
-        register=spec.register,
-        percent=percent and scaled,
-        maximum=spec.maximum or "the maximum frequency",
-        scaled=scaled,
-        ratio=ratio,
-        exact=is_real(ratio),
-        verify=status(drive).verify,
-        in_rpm=in_rpm,
-        signed=drive.operation.by_sign,
-        highest=highest,
-        highest_why=f"{why} ends here",
-        pair=(row.order or "high_first") if row.words else None,
-    )
+    has = reference(drive)
+    return vars(has) | {
+        "source": source_of(drive, has.said.source),
+        "exact": is_real(has.ratio),
+        "highest_why": f"{'the range of the register' if has.ranged else 'the word'} ends here",
+        "verify": status(drive).verify,
+    }
 
 
 @dataclass(frozen=True)

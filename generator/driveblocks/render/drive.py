@@ -26,6 +26,7 @@ from driveblocks.maps.trust import second_hand
 from driveblocks.maps.view import error_number
 from driveblocks.meaning.measure import PINS, Measure, measures, own_maximum
 from driveblocks.meaning.pattern import Pattern, bits_of
+from driveblocks.meaning.reference import Reference, reference
 from driveblocks.meaning.roles import Roles, roles
 from driveblocks.meaning.serial import Serial, serial
 from driveblocks.meaning.status import Sign, status
@@ -264,16 +265,7 @@ class Ordering:
     """That of the reference."""
     mixed: bool
     """Not all are written by one function."""
-    pair: str | None
-    """The word that comes first in a reference of 32 bits."""
-    reference: int
-    scaled: bool
-    percent: bool
-    in_rpm: bool
-    """The reference is in r/min."""
-    signed: bool
-    """A negative reference reverses."""
-    maximum: str
+    referred: Reference
     silent: tuple[int, int] | None
     """The write of the fault reset that makes the drive silent, and for how long, ms."""
 
@@ -308,7 +300,8 @@ class Block:
     def values(self) -> dict[str, object]:
         """What its templates print."""
         reads = {f"{role}_reads": numbers for role, numbers in vars(self.reading.roles).items()}
-        return reads | vars(self.reading) | vars(self.showing) | vars(self.ordering) | vars(self.own)
+        speed = vars(self.ordering.referred) | {"reference": self.ordering.referred.register}
+        return reads | speed | vars(self.reading) | vars(self.showing) | vars(self.ordering) | vars(self.own)
 
 
 @kept
@@ -370,7 +363,7 @@ def _ordering(drive: Drive) -> Ordering:
     commands = {one.does: one for one in drive.operation.commands}
     written = [(one, list(_writes(drive, one, commands["stop"]))) for one in commands.values()]
     orders = {ORDERS[one.does]: writes for one, writes in written if one.does in ORDERS}
-    reference, by = context.reference(drive), writes_by(drive, commands["stop"].register)
+    by, of_speed = (writes_by(drive, each) for each in (commands["stop"].register, reference(drive).register))
     return Ordering(
         stops={STOPS[one.does]: writes[0] for one, writes in written if one.does in STOPS},
         orders=orders,
@@ -384,16 +377,9 @@ def _ordering(drive: Drive) -> Ordering:
         can={str(does): one for does, one in commands.items()},
         keeps=context.kept(drive),
         write=by,
-        by=writes_by(drive, reference.register),
-        mixed={each.function for writes in orders.values() for each in writes} | {writes_by(drive, reference.register)}
-        != {by},
-        pair=reference.pair,
-        reference=reference.register,
-        scaled=reference.scaled,
-        percent=reference.percent,
-        in_rpm=reference.in_rpm,
-        signed=reference.signed,
-        maximum=reference.maximum,
+        by=of_speed,
+        mixed={each.function for writes in orders.values() for each in writes} | {of_speed} != {by},
+        referred=reference(drive),
         silent=drive.operation.silenced,
     )
 

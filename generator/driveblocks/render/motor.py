@@ -4,6 +4,7 @@ from dataclasses import dataclass
 from math import ceil
 
 from driveblocks.maps.model import Drive
+from driveblocks.meaning.reference import Reference, reference
 from driveblocks.meaning.serial import Serial, serial
 from driveblocks.meaning.status import registers, status
 from driveblocks.render import context
@@ -28,10 +29,7 @@ class Motor:
     scan: int
     has_reset: bool
     second_hand: bool
-    unscaled: bool
-    in_rpm: bool
-    percent: bool
-    maximum: str
+    reference: Reference
     checked: int
     ascii: bool
     pause: int
@@ -49,10 +47,7 @@ def motor(drive: Drive) -> Motor:
         scan=SCAN_MS,
         has_reset="fault_reset" in ordering.can,
         second_hand=own.second_hand,
-        unscaled=not ordering.scaled,
-        in_rpm=ordering.in_rpm,
-        percent=ordering.percent,
-        maximum=ordering.maximum,
+        reference=reference(drive),
         checked=own.checked,
         ascii=serial(drive).ascii,
         pause=_pause(drive),

@@ -7,13 +7,14 @@ from fractions import Fraction
 from functools import lru_cache
 
 from driveblocks.maps.form import Span
-from driveblocks.maps.model import Drive, Reference
+from driveblocks.maps.model import Drive
 from driveblocks.maps.pair import places, whole
 from driveblocks.maps.plan import Words, dialect, most, plan
 from driveblocks.maps.rivals import own_address
 from driveblocks.meaning.measure import measures
 from driveblocks.meaning.pattern import WORD, Pattern, of_write
 from driveblocks.meaning.quantity import quantity
+from driveblocks.meaning.reference import reference
 from driveblocks.meaning.serial import serial
 from driveblocks.meaning.status import registers, status
 from driveblocks.modbus.layout import Dialect
@@ -156,7 +157,7 @@ def table(drive: Drive, habits: Habits, *, ascii_mode: bool = False) -> Table:
         named=named,
         faces=_faces(drive, measured),
         gauges=gauges,
-        reference=_reference(drive, drive.operation.reference, habits),
+        reference=_reference(drive, habits),
         storage=_storage(drive, allowed.writable),
         present=drive.faults.present,
         present_shift=drive.faults.present_bits.first if drive.faults.present_bits else 0,
@@ -235,30 +236,19 @@ def _choices(drive: Drive) -> Iterator[Limit]:
 
 def _highest(drive: Drive, habits: Habits) -> Iterator[Limit]:
     """A reference in Hz ends at the drive's own maximum, where the manual has its scale and refuses what is beyond."""
-    row = drive.register_at(drive.operation.reference.register, "w")
-    in_hertz = drive.operation.reference.means == "frequency" and row is not None and not row.range and not row.signed
-    if row is not None and in_hertz and row.scale and refuses_beyond(drive):
-        yield Limit(row.address.first, 0, int(habits.maximum_hz / Decimal(row.scale.factor)), signed=False)
+    one = reference(drive)
+    in_hertz = drive.operation.reference.means == "frequency" and not one.ranged and not one.quantity.signed
+    if in_hertz and one.scaled and refuses_beyond(drive):
+        yield Limit(one.register, 0, int(habits.maximum_hz * one.ratio), signed=False)
 
 
-def _reference(drive: Drive, reference: Reference, habits: Habits) -> Set:
-    row = drive.register_at(reference.register, "w")
-    signed = bool(row and row.signed)
-    factor = _factor(drive, habits, reference.register)
-    times, per = Fraction(1000 * factor).limit_denominator(MOST_PER).as_integer_ratio()
-    if reference.means == "percent_of_maximum":
-        times, per = 1000 * habits.maximum_hz, int(100 / factor)
-    elif reference.means == "speed" and row is not None and row.scale:
-        milli = Fraction(1000 * factor) * habits.pole_pairs / 60
-        times, per = milli.limit_denominator(max(1, int(MOST_TIMES / milli))).as_integer_ratio()
-    elif reference.full_scale is not None:
-        milli = Fraction(1000 * (reference.full_scale_hz or habits.maximum_hz)) / reference.full_scale
-        times, per = milli.limit_denominator(max(1, int(MOST_TIMES / milli))).as_integer_ratio()
-    verify = status(drive).verify
-    if row is not None and row.words:
-        high, low = places(row, reference.register)
-        return Set(low, times, per, signed, reference.negative_reverses, verify, high)
-    return Set(reference.register, times, per, signed, reference.negative_reverses, verify)
+def _reference(drive: Drive, habits: Habits) -> Set:
+    one = reference(drive)
+    counts = one.ratio if one.scaled else one.ratio / Fraction(_factor(drive, habits, one.register))
+    milli = Fraction(1000 * (habits.maximum_hz if one.part else habits.pole_pairs if one.in_rpm else 1)) / counts
+    times, per = milli.limit_denominator(min(MOST_PER, max(1, int(MOST_TIMES / milli)))).as_integer_ratio()
+    has, above = one.quantity, one.quantity.high if one.pair else None
+    return Set(has.low, times, per, has.signed, one.reverses, status(drive).verify, above)
 
 
 def _around(span: Span, address: int) -> list[Span]:
@@ -274,7 +264,7 @@ def _storage(drive: Drive, writable: tuple[Span, ...]) -> Storage:
     """Parameters are the areas, and writable rows of sections without a command; the rest is never stored."""
     storage = drive.storage
     told = {*(step.register for command in drive.operation.commands for step in command.first)}
-    told |= {each.register for each in drive.operation.commands} | {*whole(drive, drive.operation.reference.register)}
+    told |= {each.register for each in drive.operation.commands} | {*reference(drive).registers}
     sections = [each for each in drive.sections if not any(row.address.first in told for row in each.registers)]
     rows = [row.address for section in sections for row in section.registers]
     areas = [area.addresses for area in drive.areas]

@@ -10,6 +10,7 @@ from driveblocks.maps.form import is_bit
 from driveblocks.maps.model import Command, Drive
 from driveblocks.maps.polls import fast_words, other_words, polls, schedule, slow_words
 from driveblocks.meaning.pattern import of_write
+from driveblocks.meaning.reference import reference
 from driveblocks.meaning.roles import roles
 from driveblocks.meaning.status import status
 from driveblocks.modbus.layout import COIL_ON
@@ -204,11 +205,10 @@ def _orders(drive: Drive) -> Iterator[Row]:
             shown = _write(one, step, several=several) | _awaited(drive, one, step)
             yield [words, {"Order": numbers[does]} | number, shown]
             yield none
-    reference = word(drive.operation.reference.register)
-    shows: Shows = {"Register": reference, "Value": word(0x1234), "Moves": False}
-    row = drive.register_at(drive.operation.reference.register, "w")
-    if row is not None and row.words:
-        low = row.order == "low_first"
+    speed = reference(drive)
+    shows: Shows = {"Register": word(speed.register), "Value": word(0x1234), "Moves": False}
+    if speed.pair:
+        low = speed.pair == "low_first"
         shows |= {"Value": word(0x1234 if low else 0), "Second": word(0 if low else 0x1234), "Quantity": 2}
     yield ["the reference", {"Order": 10, "ReferenceWord": 0x1234}, shows]
 
