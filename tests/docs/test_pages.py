@@ -331,9 +331,9 @@ def test_pictures_are_there_and_whole() -> None:
 def test_figures_of_the_line_follow_its_formula() -> None:
     """JSCC at 9600, worked out by hand from the formula of docs/line.md."""
     rows = re.findall(
-        r"^\| 9600 8N1, (the \w+) keeps the silence \| (\d+) ms \| (\d+) ms \| (\d+) ms \|", page("JSCC"), re.M
+        r"^\| 9600 8E1, (the \w+) keeps the silence \| (\d+) ms \| (\d+) ms \| (\d+) ms \|", page("JSCC"), re.M
     )
-    # 13 + 2 characters a word, of 1.04 ms, and 5 ms: 22.7 ms for two words, 20.6 ms for one; S is JSCC's 10 ms.
+    # 13 + 2 characters a word, of 1.15 ms, and 5 ms: 24.5 ms for two words, 22.2 ms for one; S is JSCC's 10 ms.
     # By the port 4 scans for each of three reads, the status twice; by the line 3 + 1 + 1.
     assert rows == [("the port", "120", "360", "840"), ("the line", "150", "450", "1050")]
 

@@ -5,7 +5,7 @@ from functools import cache
 from tests.second.line import RUNS, Bench, Frame
 from tests.second.station import maps
 
-from driveblocks.simulator.pattern import Pattern, of_write
+from driveblocks.meaning.pattern import Pattern, of_write
 
 STOPS = ("stop", "quick_stop", "coast_stop", "jog_stop")
 MOTIONS = dict(zip(RUNS, ("run_forward", "run_reverse", "jog_forward", "jog_reverse"), strict=True))

@@ -325,9 +325,9 @@ def test_the_templates_get_what_the_drive_says_of_itself_or_nothing() -> None:
     assert (plate.function, plate.address, plate.words) == (3, 0x2003, 1)
     assert plate.tests == [Masked(0, 0xFFFF, 0x0312)]
     assert identity.plate
-    assert (bus.holds, bus.reads) == (["DriveStatusBits.Remote"], [1])
-    assert (maximum.word.address, maximum.scale.factor) == (0x2004, Decimal("0.1"))
-    assert block.reading.verify_reads == [1]
+    assert (bus.holds, block.reading.roles.by_bus) == (["DriveStatusBits.Remote"], (1,))
+    assert (maximum.word.address, maximum.scale) == (0x2004, Decimal("0.1"))
+    assert block.reading.roles.verify == (1,)
     assert {name: drive_block(drive).own.feeds for name, drive in shapes().items()} == {
         "cia402": "any", "profidrive": "reference", "pulse": "read", "two_registers": "run", "active_low": None,
         "packed": None,

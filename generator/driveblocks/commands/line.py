@@ -26,8 +26,8 @@ PICTURE = only_over(rb"<svg [^>]*>\s*<title>One round of polls: ", "line --pictu
     metavar="REGISTERS",
     help="A meter or a sensor beside the drives, of which as many registers are read; may be repeated.",
 )
-@click.option("--rate", type=int, metavar="RATE", help="Bit rate; else that of the program, or 9600.")
-@click.option("--format", "form", metavar="8N1", help="Data bits, parity, stop bits; else as the program, or 8N1.")
+@click.option("--rate", type=int, metavar="RATE", help="Bit rate; else of the program, or of the drives as delivered.")
+@click.option("--format", "form", metavar="8N1", help="Data bits, parity, stop bits; else likewise.")
 @click.option("--ascii", is_flag=True, help="MODBUS ASCII instead of RTU.")
 @click.option("--scan", metavar="TIME", default="10ms", help="Time between two scans.")
 @click.option("--max-scan", metavar="TIME", help="The longest; else MaxScanMs of the program, or two scans.")

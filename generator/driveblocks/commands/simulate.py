@@ -18,13 +18,13 @@ from driveblocks.commands import FILE, refuse
 @click.option("--tcp", metavar="127.0.0.1:PORT", help="Serve serial bytes over TCP, on this computer only.")
 @click.option("--pty", is_flag=True, help="Serve a pseudo-terminal (not on Windows); its name is printed.")
 @click.option("--baud", metavar="RATE", type=int, default=19200, help="Bit rate, over TCP and --pty, too.")
-@click.option("--format", "form", metavar="8N1", default="8N1", help="Data bits, parity, stop bits.")
+@click.option("--format", "form", metavar="8N1", help="Data bits, parity, stop bits; else as the drives are delivered.")
 @click.option("--ascii", is_flag=True, help="MODBUS ASCII instead of RTU.")
 @click.option("--scenario", type=FILE, metavar="FILE.yaml", help="Events and their times, such as - at 3 s: trip OC")
 @click.option("--frames", is_flag=True, help="Print every frame as `driveblocks explain` does.")
 @click.option("--for", "length", metavar="TIME", help="End after this time, such as 60s.")
 @click.option("--schema", is_flag=True, help="Print the JSON Schema of scenarios, and nothing else.")
-def run(drives: tuple[str, ...], form: str, schema: bool, **words: Any) -> None:
+def run(drives: tuple[str, ...], schema: bool, **words: Any) -> None:
     """Simulate drives on a line, for a PLC or any MODBUS tool.
 
     Without --port, --tcp or --pty they are at 127.0.0.1:5020. On a REAL PORT it listens for 3 seconds, then asks each
@@ -40,5 +40,5 @@ def run(drives: tuple[str, ...], form: str, schema: bool, **words: Any) -> None:
         return
     if not drives:
         refuse("name a drive; for example: driveblocks simulate jscc@1")
-    made = Words(drives=drives, form=form.upper(), **words)
+    made = Words(drives=drives, **words)
     Setup(made).run()

@@ -8,19 +8,22 @@ from driveblocks.docs.pins import SCALES, unit_of
 from driveblocks.maps.conduct import reply_delay
 from driveblocks.maps.form import address_text
 from driveblocks.maps.model import Drive
-from driveblocks.render.drive import MEASURES, drive_block, pin_of
+from driveblocks.meaning.measure import PINS
+from driveblocks.meaning.reference import reference
+from driveblocks.meaning.status import status
+from driveblocks.render.drive import drive_block, pin_of
 from structured_text.language.tree import StructSpec, TypeDecl, VarDecl
 
 MAP_HAS = "no use: the map has the scale"
 NOT_SHOWN = "no use: the drive does not show it"
 SAYS = {
     "ReferenceScale": "scale of the reference, where the manual gives none",
-    **{key: f"scale of `{name}{unit}`, where the manual gives none" for name, unit, key in MEASURES.values() if key},
+    **{key: f"scale of `{name}{unit}`, where the manual gives none" for name, unit, key in PINS.values() if key},
     "OutputVoltageV": "output voltage", "DcBusVoltageV": "voltage of the DC bus", "OutputPowerKW": "output power",
     "OutputSpeedRpm": "output speed, without its sign", "OutputTorquePercent": "torque, of the rated torque",
     "RelativePowerPercent": "output power, of the rated power", "DriveTemperatureDegC": "temperature of the drive",
     "MotorTemperatureDegC": "temperature of the motor", "OperatingTimeH": "operating hours", "EnergyKWh": "energy",
-    **{f"{name}Valid": f"`{name}{unit}` is fresh, and its scale known" for name, unit, _ in MEASURES.values()},
+    **{f"{name}Valid": f"`{name}{unit}` is fresh, and its scale known" for name, unit, _ in PINS.values()},
 }  # fmt: skip
 """Where a comment leans on the line above it."""
 ZEROS = {"KeepWord": "all of them 0", "PolePairs": "not set", **dict.fromkeys(SCALES, "not set")}
@@ -76,13 +79,13 @@ def _zero(said: str, unit: str) -> str:
 
 
 def _settings(drive: Drive) -> Iterator[tuple[str, str]]:
-    block = drive_block(drive)
-    word = address_text(block.ordering.reference)
+    block, speed = drive_block(drive), reference(drive)
+    word = address_text(speed.register)
     missing = f"required: the manual gives no scale of {word}"
-    yield "ReferenceScale", MAP_HAS if block.ordering.scaled or block.ordering.percent else missing
-    turns = f"required: {word} is in r/min" if block.ordering.in_rpm else "no use: the reference is not in r/min"
+    yield "ReferenceScale", MAP_HAS if speed.scaled else missing
+    turns = f"required: {word} is in r/min" if speed.in_rpm else "no use: the reference is not in r/min"
     yield "PolePairs", turns
-    for shows, (_, _, setting) in MEASURES.items():
+    for shows, (_, _, setting) in PINS.items():
         measure = block.showing.measures.get(shows)
         if not setting:
             continue
@@ -101,7 +104,7 @@ def _settings(drive: Drive) -> Iterator[tuple[str, str]]:
 def _diagnosis(drive: Drive) -> Iterator[tuple[str, str]]:
     """What the block can say of a drive, and what it cannot."""
     found = drive_block(drive).showing.measures
-    for shows, (name, unit, setting) in MEASURES.items():
+    for shows, (name, unit, setting) in PINS.items():
         says = "" if shows in found else "always 0: the drive does not show it"
         valid = f"FALSE without `{setting}`" if shows in found and not found[shows].scale else ""
         yield f"{name}{unit}", f"from {found[shows].word.address_text}" if shows in found else says
@@ -111,7 +114,7 @@ def _diagnosis(drive: Drive) -> Iterator[tuple[str, str]]:
             yield name, "always 0: the drive does not show it"
     coded = f"see `{drive.prefix}_WarningText`" if drive.warnings else "always 0: the map has no warning codes"
     yield "WarningCode", coded
-    if not any(one.shows == "limit" for one in drive.operation.status):
+    if not status(drive).shows("limit"):
         yield "LimitActive", "always FALSE: the drive does not show it"
     commands = {one.does for one in drive.operation.commands}
     for name, does in _ABILITIES.items():

@@ -13,13 +13,17 @@ from driveblocks.maps import conduct, inventory, plan, rivals, trust
 from driveblocks.maps.form import address_text
 from driveblocks.maps.model import Absence, Drive, Erratum, Notice, Setting
 from driveblocks.maps.polls import Poll, polls, schedule, wire_ms
+from driveblocks.meaning.measure import PINS
+from driveblocks.meaning.reference import reference
+from driveblocks.meaning.serial import serial
+from driveblocks.meaning.status import status
 from driveblocks.platforms import CANONICAL, EXPORTS, PLATFORMS, cost
 from driveblocks.platforms.ladder import diagram
 from driveblocks.platforms.part import Part
 from driveblocks.platforms.port import adapter, first_motor
 from driveblocks.platforms.record import Platform
 from driveblocks.render import context
-from driveblocks.render.drive import MEASURES, drive_block, pin_of
+from driveblocks.render.drive import drive_block, pin_of
 from driveblocks.render.environment import render
 from driveblocks.render.library import File
 from driveblocks.render.motor import SCAN_MS, motor
@@ -37,8 +41,8 @@ HARD_STOP = "VFD_HardStop"
 """Block of the contact in the hard stop, which has a page, too."""
 RATES = (9600, 19200)
 DRIVES = (1, 3, 7)
-TURN_ROUND_MS, BITS = 5, 10
-"""Under what the page's figures hold: a turn-round that no manual promises, and 8N1."""
+TURN_ROUND_MS = 5
+"""Under what the page's figures hold; no manual promises it."""
 ABILITIES = {
     "run_reverse": "run in reverse", "jog_forward": "jog forward", "jog_reverse": "jog in reverse",
     "quick_stop": "quick stop", "coast_stop": "coast stop", "fault_reset": "reset a fault",
@@ -180,12 +184,12 @@ def _turns_on(drive: Drive) -> str:
 def _wires(drive: Drive) -> dict[str, str]:
     """What the manual of a drive says of its line, and what it does not say."""
     gaps = [one for one in drive.absent if "serial" in one.about and "termination" in one.what]
-    silence = drive.serial.silence
-    milliseconds = f"more than {silence.milliseconds} ms" if silence and silence.milliseconds else ""
-    characters = f"{silence.characters} characters" if silence and silence.characters else ""
+    line = serial(drive)
+    milliseconds = f"more than {line.silence_ms} ms" if line.silence_ms else ""
+    characters = f"{line.silence_characters} characters" if line.silence_characters else ""
     return {
         "name": f"[{drive.prefix}]({drive.prefix}_Drive.md)",
-        "port": drive.serial.interface.en,
+        "port": line.interface,
         "open": "see below" if gaps else "see the manual",
         "silence": milliseconds or characters or "the manual does not say",
         "find_out": "; ".join(one.find_out for one in gaps),
@@ -194,15 +198,15 @@ def _wires(drive: Drive) -> dict[str, str]:
 
 def _swapped(drive: Drive) -> dict[str, str]:
     """What a block of this family wants otherwise than that of another."""
-    first, unit = motor(drive), drive.serial.unit
+    first, line, speed = motor(drive), serial(drive), reference(drive)
     return {
         "prefix": drive.prefix,
-        "full": f"required: what {first.maximum} says" if first.percent else "no use",
-        "scale": "required" if first.unscaled else "no use",
-        "pairs": "required" if first.in_rpm else "no use",
+        "full": f"required: what {speed.maximum} says" if speed.percent else "no use",
+        "scale": "no use" if speed.scaled else "required",
+        "pairs": "required" if speed.in_rpm else "no use",
         "reset": "yes" if first.has_reset else "no",
         "cannot": ", ".join(words for does, words in ABILITIES.items() if not can(drive, does)) or "nothing",
-        "units": f"{unit.min} to {unit.max}",
+        "units": f"{line.lowest} to {line.highest}",
     }
 
 
@@ -249,15 +253,14 @@ def _network(platform: str, drive: Drive, blocks: Mapping[str, FunctionBlock]) -
 
 
 def _pins(drive: Drive, block: FunctionBlock) -> tuple[list[Pin], list[Pin], list[Pin]]:
-    unit = drive.serial.unit
-    ranges = {"Address": f"{unit.min} to {unit.max}"}
+    ranges = {"Address": f"{serial(drive).lowest} to {serial(drive).highest}"}
     inputs, in_outs, outputs = (pins(block, kind, ranges) for kind in (VarKind.INPUT, VarKind.IN_OUT, VarKind.OUTPUT))
     return inputs, in_outs, outputs
 
 
 def _page(drive: Drive, checked: Checked, values: Mapping[str, Any], own: Own, platforms: list[str]) -> str:
     block = checked.blocks[f"{drive.prefix}_Drive".upper()]
-    listed = {code.baud for code in drive.serial.baud.codes} if drive.serial.baud else set()
+    listed = serial(drive).rates
     open_ = [each for each in drive.absent if _open(drive, each)]
     return render(
         "docs/Drive.md.j2",
@@ -290,7 +293,7 @@ def _page(drive: Drive, checked: Checked, values: Mapping[str, Any], own: Own, p
         states_said=[(name, states.SAYS[number]) for number, (name, _) in enumerate(NAMES)],
         hard_stop=HARD_STOP,
         derived=_guessed(drive),
-        verify=drive.operation.reference.verify,
+        status=status(drive),
         conduct=_conduct(drive),
         feeds=drive.watchdog.feeds if drive.watchdog else None,
         proved_tripped=timing.proves_while_tripped(drive),
@@ -311,16 +314,16 @@ def can(drive: Drive, does: str) -> bool:
 
 def _reported(drive: Drive) -> list[str]:
     """What a drive tells by itself over the bus, in words."""
-    operation = drive.operation
-    told = [f"that it is {WORDS[one]}" for one in WORDS if any(each.shows == one for each in operation.status)]
-    told += ["what it is"] if drive.identity is not None else []
-    told += ["whether the bus is in command"] if operation.commanded_by is not None else []
-    return told + (["its own maximum frequency"] if operation.own_maximum is not None else [])
+    shows = status(drive)
+    told = [f"that it is {words}" for one, words in WORDS.items() if shows.shows(one)]
+    told += ["what it is"] if shows.identity.patterns else []
+    told += ["whether the bus is in command"] if shows.by_bus.patterns else []
+    return told + (["its own maximum frequency"] if drive.operation.own_maximum is not None else [])
 
 
 def _shown(drive: Drive, cell: str) -> list[str]:
     """The pins that show a value, as it is or once its scale is found out."""
-    return [f"`{pin_of(shows).pin}`" for shows in MEASURES if _shows(drive, shows) == cell]
+    return [f"`{pin_of(shows).pin}`" for shows in PINS if _shows(drive, shows) == cell]
 
 
 def _conduct(drive: Drive) -> list[tuple[str, str]]:
@@ -345,8 +348,7 @@ def _shows(drive: Drive, shows: str) -> str:
 
 def _guessed(drive: Drive) -> bool:
     """Whether AtSpeed rests on an output frequency without a scale."""
-    shown = any(one.shows == "at_speed" for one in drive.operation.status)
-    return not shown and _shows(drive, "output_frequency") not in ("yes", "no")
+    return not status(drive).shows("at_speed") and _shows(drive, "output_frequency") not in ("yes", "no")
 
 
 # ---------------------------------------------------------------- what a person sets, and has to find out
@@ -404,7 +406,7 @@ class Read:
 
 def _reads(drive: Drive) -> Iterator[Read]:
     """Each read with its registers and what it takes on the wire, turn-round and silences included."""
-    found = drive_block(drive).reading.reads
+    found, bits = drive_block(drive).reading.reads, serial(drive).character.bits
     fast = [one for one in found if one.read.fast]
     # see `schedule`: a status that one read brings comes twice before what is slow
     often = "twice a round" if len(fast) == 1 < len(found) else "once a round"
@@ -415,7 +417,7 @@ def _reads(drive: Drive) -> Iterator[Read]:
             often if poll.fast else "one slow read a round",
             address_text(poll.address),
             [f"{word.address_text} {context.inside_a_sentence(word.title)}" for word in one.words],
-            [f"{wire_ms(poll, rate, BITS, _turn_round(drive), _silence(drive)):.0f}" for rate in RATES],
+            [f"{wire_ms(poll, rate, bits, _turn_round(drive), _silence(drive)):.0f}" for rate in RATES],
         )
 
 
@@ -426,9 +428,9 @@ def _turn_round(drive: Drive) -> int:
 
 def _silence(drive: Drive) -> float | None:
     """The silence that a drive asks for, ms; None for one that speaks ASCII alone, which needs none."""
-    if "rtu" not in drive.serial.mode.modes:
+    if serial(drive).ascii:
         return None
-    return float((drive.serial.silence and drive.serial.silence.milliseconds) or 0)
+    return float(serial(drive).silence_ms)
 
 
 @dataclass(frozen=True)
@@ -451,7 +453,7 @@ def _refresh(drive: Drive) -> Iterator[Refresh]:
 
 
 def _scans(drive: Drive, poll: Poll, rate: int, *, keeps: bool) -> int:
-    character = 1000 * BITS / rate
+    character = 1000 * serial(drive).character.bits / rate
     own = _silence(drive)
     silence = 0.0 if own is None else max(3.5 * character, own)
     wire = poll.characters(ascii_mode=own is None) * character + _turn_round(drive)

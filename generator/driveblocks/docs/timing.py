@@ -10,8 +10,8 @@ from operator import itemgetter
 
 from driveblocks.docs.canvas import Canvas
 from driveblocks.maps.model import Drive
+from driveblocks.meaning.status import status
 from driveblocks.render.reasons import STATES
-from driveblocks.simulator.pattern import of_condition
 
 Speed = tuple[float, float]
 """Output frequency at the beginning and at the end of a column, as a share of the reference."""
@@ -73,9 +73,8 @@ def fault_and_reset(drive: Drive) -> tuple[Column, ...]:
 
 def proves_while_tripped(drive: Drive) -> bool:
     """Whether words can show a fault and prove standstill at once."""
-    proof = [of_condition(each) for each in drive.operation.standstill.all]
-    faults = [of_condition(each) for one in drive.operation.status if one.shows == "fault" for each in one.any]
-    return any(not any(fault.excludes(each) for each in proof) for fault in faults)
+    proof = status(drive).standstill.patterns
+    return any(not any(fault.excludes(each) for each in proof) for fault in status(drive).shows("fault"))
 
 
 WIDTH, LEFT, ROW, TOP, GAP, HIGH = 1120, 150, 32, 44, 60, 16

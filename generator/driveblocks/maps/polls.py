@@ -35,6 +35,11 @@ class Poll:
     """Whether it is sent every round; the slow ones take turns, one in a round."""
 
     @property
+    def addresses(self) -> range:
+        """What it reads."""
+        return range(self.address, self.address + self.words)
+
+    @property
     def data(self) -> int:
         """Data bytes of its reply."""
         return bytes_of(self.words) if is_bit(self.address) else WORD * self.words
@@ -76,7 +81,7 @@ def slow_words(drive: Drive) -> frozenset[int]:
     rows = map(drive.register_at, words)
     meaning = [each for row in rows if row and row.scale for each in row.scale.conditions]
     words |= {each.register for each in meaning}
-    words |= _fault_words(drive)
+    words |= fault_words(drive)
     words.update(drive.warned)
     return frozenset(each for word in words for each in whole(drive, word)) - fast_words(drive)
 
@@ -89,7 +94,7 @@ def young_words(drive: Drive) -> frozenset[int]:
     return frozenset({*measured, *drive.warned, *meaning - meaning_words(drive)})
 
 
-def _fault_words(drive: Drive) -> frozenset[int]:
+def fault_words(drive: Drive) -> frozenset[int]:
     faults = drive.faults
     if faults.present is not None:
         return frozenset({faults.present})
@@ -129,10 +134,9 @@ def polls(drive: Drive) -> tuple[Poll, ...]:
 
 
 def _place(drive: Drive, poll: Poll) -> tuple[bool, bool]:
-    words = range(poll.address, poll.address + poll.words)
     if poll.fast:
-        return False, not speed_words(drive).isdisjoint(words)
-    return True, _fault_words(drive).isdisjoint(words)
+        return False, not speed_words(drive).isdisjoint(poll.addresses)
+    return True, fault_words(drive).isdisjoint(poll.addresses)
 
 
 def identity_read(drive: Drive) -> Poll | None:

@@ -44,4 +44,4 @@ def by_words(drive: Drive) -> bool:
     """Whether a motor takes no more than holding registers that are read, and single words that are written."""
     block = drive_block(drive)
     read = all(each.read.function == HOLDING for each in block.reading.reads)
-    return read and drive.operation.in_one_word and not block.ordering.pair
+    return read and drive.operation.in_one_word and not block.ordering.referred.pair

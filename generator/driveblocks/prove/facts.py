@@ -6,26 +6,25 @@ Taken from the map itself, not from what the generator made of it.
 from collections.abc import Iterable, Iterator, Mapping
 
 from driveblocks.maps.form import is_bit
-from driveblocks.maps.model import Bits, Command, Condition, Drive, Measured, Step
-from driveblocks.maps.names import UNIT_NAMES
-from driveblocks.maps.pair import places, whole
+from driveblocks.maps.model import Command, Drive, Step
 from driveblocks.maps.plan import writes_by
-from driveblocks.maps.polls import Poll, fast_words, polls, schedule, slow_words
+from driveblocks.maps.polls import Poll, fast_words, fault_words, polls, schedule, slow_words
 from driveblocks.maps.revision import checked
 from driveblocks.maps.rivals import first_reads, refusals
 from driveblocks.maps.trust import second_hand
 from driveblocks.maps.view import error_number
+from driveblocks.meaning.measure import PINS, Measure, measures, own_maximum
+from driveblocks.meaning.pattern import Pattern, bits_of
+from driveblocks.meaning.reference import reference
+from driveblocks.meaning.roles import roles
+from driveblocks.meaning.serial import serial
+from driveblocks.meaning.status import status
 from driveblocks.modbus.layout import COIL_ON
 from driveblocks.render.context import word_input
 from driveblocks.render.decoded import Decoded
-from driveblocks.render.drive import MEASURES
+from driveblocks.render.drive import STATUS
 from structured_text.language.writing import word
 
-PINS = {
-    "running": "Running", "reverse": "Reverse", "at_speed": "AtSpeed", "zero_speed": "ZeroSpeed", "warning": "Warning",
-    "fault": "Fault", "limit": "Diagnosis.LimitActive",
-}  # fmt: skip
-"""What a drive can show -> the pin."""
 MOTIONS = ("run_forward", "run_reverse", "jog_forward", "jog_reverse")
 STOPS = ("stop", "quick_stop", "coast_stop", "jog_stop")
 SENT = dict(
@@ -45,19 +44,19 @@ NEAR = (
 def facts(drive: Drive) -> dict[str, str]:
     """The facts of a family by the names under which the rules have them, as ST."""
     commands: dict[str, Command] = {one.does: one for one in drive.operation.commands}
-    stop = commands["stop"]
-    row = drive.register_at(drive.operation.reference.register, "w")
+    stop, shows = commands["stop"], status(drive)
+    speed = reference(drive)
     found = {
         "P": drive.prefix,
-        "lowest": str(drive.serial.unit.min),
-        "highest": str(drive.serial.unit.max),
+        "lowest": str(serial(drive).lowest),
+        "highest": str(serial(drive).highest),
         "write": str(writes_by(drive, stop.register)),
-        "reference": word(drive.operation.reference.register),
+        "reference": word(speed.register),
         "written": _written(drive),
-        "sent_word": f"Slot.Ask[1].Words[{places(row, 1)[1] - 1 if row and row.words else 0}]",
+        "sent_word": f"Slot.Ask[1].Words[{speed.quantity.low - speed.register}]",
         "holds_reference": _is_reference(drive),
-        "standstill": _every(_holds(drive, each) for each in drive.operation.standstill.all),
-        "proof_since": _every(f"Reads.Since{number}" for number in _proof_reads(drive)),
+        "standstill": _every(_holds(drive, each) for each in shows.standstill.patterns),
+        "proof_since": _every(f"Reads.Since{number}" for number in roles(drive).proof),
         **_read(drive),
         **_shown(drive),
         **_reference(drive),
@@ -67,20 +66,19 @@ def facts(drive: Drive) -> dict[str, str]:
         "unwritable": _every(_beside(each) for each in sorted(_command_registers(drive)) if not is_bit(each)),
         "keep": "Settings.KeepWord" if any(_kept(drive, one) for one in commands.values()) else word(0),
     }
-    shown = {one.shows for one in drive.operation.status}
-    measured = {one.shows for one in drive.operation.measures}
+    shown = {one.name for one in shows.shown}
+    measured = {one.name for one in measures(drive)}
     for pin in ("reverse", "fault", "warning", "at_speed", "zero_speed"):
         computed = pin.endswith("speed") and "output_frequency" in measured
         found[f"shows_{pin}"] = str(pin in shown or computed).upper()
     for name, member in (("may_stop", "MayStop"), ("known", "Known"), ("wrong", "Wrong")):
         found[name] = f"Identity.{member}" if first_reads(drive) else str(name != "wrong").upper()
-    running = next(one for one in drive.operation.status if one.shows == "running")
-    found["running"] = _any(_holds(drive, each) for each in running.any)
-    by_bus = drive.operation.commanded_by.all if drive.operation.commanded_by else ()
+    running, by_bus = shows.shows("running"), shows.by_bus.patterns
+    found["running"] = _any(_holds(drive, each) for each in running)
     found["by_bus"] = _every(_holds(drive, each) for each in by_bus)
     found["says_by_bus"] = _every(Decoded(drive).holds(each) for each in by_bus)
     found["others_command"] = f"Control.Seen.OthersCommand <> ({found['says_by_bus']})" if by_bus else "TRUE"
-    found["says_running"] = _any(Decoded(drive).holds(each) for each in running.any)
+    found["says_running"] = _any(Decoded(drive).holds(each) for each in running)
     for does in (*MOTIONS, *STOPS, "fault_reset"):
         one = commands.get(does)
         ask = "Slot.Ask[0]" if does in STOPS else "Slot.Ask[1]"
@@ -98,11 +96,11 @@ def facts(drive: Drive) -> dict[str, str]:
 
 def _frames(drive: Drive, one: Command, stop: Command, ask: str) -> Iterator[str]:
     """Each write of a command as a condition on a request: its register, and its word with the bits that are kept."""
-    image = {stop.register: _mask(stop.set)} if one.does == "fault_reset" else {}
+    image = {stop.register: bits_of(stop.set)} if one.does == "fault_reset" else {}
     for write in one.writes:
         keep = 0 if write.value is not None else _kept(drive, write)
-        before = image.get(write.register, 0) & ~_mask(write.clear)
-        image[write.register] = write.value if write.value is not None else before | _mask(write.set)
+        before = image.get(write.register, 0) & ~bits_of(write.clear)
+        image[write.register] = write.value if write.value is not None else before | bits_of(write.set)
         value = word(COIL_ON * image[write.register] if is_bit(write.register) else image[write.register])
         held = f"({ask}.Words[0] AND {word(ALL ^ keep)}) = {value}" if keep else f"{ask}.Words[0] = {value}"
         by = _by(drive, write.register) if ask == "Slot.Ask[1]" else ""
@@ -119,20 +117,19 @@ def _functions(drive: Drive) -> set[int]:
 
 
 def _is_reference(drive: Drive) -> str:
-    reference = drive.operation.reference.register
-    return f"(Slot.Ask[1].Address = {word(reference)}){_by(drive, reference)}"
+    register = reference(drive).register
+    return f"(Slot.Ask[1].Address = {word(register)}){_by(drive, register)}"
 
 
 def _written(drive: Drive) -> str:
     """The function and the quantity of a write: one word, or two of a reference of 32 bits."""
     codes = _any(f"Slot.Ask[1].FunctionCode = {code}" for code in sorted(_functions(drive)))
-    if len(whole(drive, drive.operation.reference.register)) == 1:
+    has = reference(drive)
+    if not has.pair:
         return f"({codes}) AND (Slot.Ask[1].Quantity = 1)"
-    row = drive.register_at(drive.operation.reference.register, "w")
-    high = 1 if row is not None and row.order == "low_first" else 0
-    above, below, is_ = f"Slot.Ask[1].Words[{high}]", f"Slot.Ask[1].Words[{1 - high}]", _is_reference(drive)
-    zero = f"({above} = {word(0)})"
-    if drive.operation.by_sign:
+    above, below = (f"Slot.Ask[1].Words[{each - has.register}]" for each in (has.quantity.high, has.quantity.low))
+    zero, is_ = f"({above} = {word(0)})", _is_reference(drive)
+    if has.signed:
         negative = f"({below} AND {word(SIGN)}) <> {word(0)}"
         zero = f"({zero} AND NOT ({negative}) OR ({above} = {word(ALL)}) AND ({negative}))"
     pair = f"(Slot.Ask[1].Quantity = 2) AND {zero}"
@@ -149,19 +146,10 @@ def _kept(drive: Drive, write: Command | Step) -> int:
     return 0 if write.value is not None else sum(1 << bit for bit in used - touched - barred)
 
 
-def _mask(spans: Iterable[Bits]) -> int:
-    return sum(1 << bit for bit in {bit for span in spans for bit in span})
-
-
-def _holds(drive: Drive, one: Condition) -> str:
-    """A condition of the map on the word that the drive block has read."""
+def _holds(drive: Drive, one: Pattern) -> str:
+    """A pattern on the word that the drive block has read."""
     name, is_ = f"Reads.{word_input(drive, one.register).name}", "<>" if one.differs else "="
-    if one.mask is not None:
-        return f"({name} AND {word(one.mask)}) {is_} {word(one.equals & one.mask)}"
-    if one.bit is None:
-        return f"{name} {is_} {word(one.equals)}"
-    bits = list(one.bit)
-    return f"({name} AND {word(_mask([one.bit]))}) {is_} {word(one.equals << min(bits))}"
+    return f"{name if one.mask == ALL else f'({name} AND {word(one.mask)})'} {is_} {word(one.value)}"
 
 
 def _comes(number: int, poll: Poll) -> str:
@@ -171,12 +159,9 @@ def _comes(number: int, poll: Poll) -> str:
 
 def _at_once(drive: Drive, poll: Poll) -> bool:
     """Whether its words count though they are doubtful: they show motion, or that there is a fault."""
-    if poll.fast or any(one.shows == "fault" for one in drive.operation.status):
+    if poll.fast or status(drive).shows("fault"):
         return poll.fast
-    words = set(range(poll.address, poll.address + poll.words))
-    bits = drive.faults.bits
-    faults = set(range(bits.first, bits.last + 1)) if bits else {drive.faults.present}
-    return bool(words & faults)
+    return not fault_words(drive).isdisjoint(poll.addresses)
 
 
 def _read(drive: Drive) -> dict[str, str]:
@@ -184,9 +169,8 @@ def _read(drive: Drive) -> dict[str, str]:
     reads = polls(drive)
     taken: list[str] = []
     for number, poll in enumerate(reads, 1):
-        words = range(poll.address, poll.address + poll.words)
         come = _comes(number, poll) + ("" if _at_once(drive, poll) else f" AND {BELIEVED}")
-        for address in sorted((fast_words(drive) | slow_words(drive)) & set(words)):
+        for address in sorted((fast_words(drive) | slow_words(drive)) & set(poll.addresses)):
             name, at = word_input(drive, address).name, address - poll.address
             said = f"(SHR(Words[0], {at}) AND {word(1)})" if is_bit(address) else f"Words[{at}]"
             taken.append(f"({come}) AND ({name} = {said}) OR NOT ({come}) AND ({name} = Was.{name})")
@@ -197,7 +181,7 @@ def _read(drive: Drive) -> dict[str, str]:
         f"AND (Ask.FunctionCode = {reads[index].function})"
         for turn, index in enumerate(schedule(reads))
     ]
-    fast = [number for number, poll in enumerate(reads, 1) if poll.fast]
+    fast = roles(drive).fast
     return {
         "words_taken": _every(taken),
         "settings_read": _settings(drive),
@@ -206,7 +190,7 @@ def _read(drive: Drive) -> dict[str, str]:
         "one_is_oldest": _any(f"StatusAgeMs = Age{number}" for number in fast),
         "status_age": _every(f"Reads.StatusAgeMs >= Reads.Age{number}" for number in fast)
         + f" AND ({_any(f'Reads.StatusAgeMs = Reads.Age{number}' for number in fast)})",
-        "proves": _every(f"Sure{number}" for number in _proof_reads(drive)),
+        "proves": _every(f"Sure{number}" for number in roles(drive).proof),
         "sure": _every(
             f"(Sure{number} = (Since{number} AND (Since{number}Ms > LongestMs)))" for number in range(1, len(reads) + 1)
         ),
@@ -217,7 +201,7 @@ def _read(drive: Drive) -> dict[str, str]:
             f"(NOT Since{number} OR Was.Since{number} AND NOT (Anew OR Forget OR Reread) OR {BELIEVED})"
             for number in range(1, len(reads) + 1)
         ),
-        "speed": _any(f"({_comes(number, reads[number - 1])}) AND {BELIEVED}" for number in _speed_reads(drive)),
+        "speed": _any(f"({_comes(number, reads[number - 1])}) AND {BELIEVED}" for number in roles(drive).speed),
         "ages": _every(
             f"(Age{number} = MB_Plus(Number := Was.Age{number}, More := PassedMs)) "
             f"OR Fresh AND (Entry = {number}) AND (Age{number} = PassedMs)"
@@ -236,25 +220,9 @@ def _read(drive: Drive) -> dict[str, str]:
     }
 
 
-def _settings_reads(drive: Drive) -> list[int]:
-    """The numbers of the polls that bring what the reference rests on."""
-    wanted = {one.register for one in drive.operation.reference.verify}
-    if drive.operation.own_maximum:
-        wanted.add(drive.operation.own_maximum.register)
-    numbered = enumerate(polls(drive), 1)
-    return [number for number, poll in numbered if wanted & set(range(poll.address, poll.address + poll.words))]
-
-
-def _verifying(drive: Drive) -> list[int]:
-    """The numbers of the polls that bring a setting that is compared."""
-    wanted = {one.register for one in drive.operation.reference.verify}
-    numbered = enumerate(polls(drive), 1)
-    return [number for number, poll in numbered if wanted & set(range(poll.address, poll.address + poll.words))]
-
-
 def _settings(drive: Drive) -> str:
     """When all of them were answered."""
-    brings = _settings_reads(drive)
+    brings = roles(drive).verify
     if not brings:
         return "SettingsRead"
     come = _every(f"Sure{number}" for number in brings)
@@ -267,63 +235,57 @@ def _settings(drive: Drive) -> str:
 def _shown(drive: Drive) -> dict[str, str]:
     """That the pins show what the map says of the words that were read, and what is handed to the line."""
     said, pins = [], []
-    dialect, silence = refusals(drive), drive.serial.silence
+    dialect = refusals(drive)
     busy = next((error_number(one) or 0 for one in drive.errors.codes if one.busy), 0)
-    for one in drive.operation.status:
-        holds = _any(_holds(drive, each) for each in one.any)
-        said.append(f"({_any(Decoded(drive).holds(each) for each in one.any)}) = ({holds})")
-        if one.shows in PINS:
-            pins.append(f"{PINS[one.shows]} = ({'Running AND ' * (one.shows == 'at_speed')}({holds}))")
+    shows = status(drive)
+    for one in shows.shown:
+        holds = _any(_holds(drive, each) for each in one.patterns)
+        said.append(f"({_any(Decoded(drive).holds(each) for each in one.patterns)}) = ({holds})")
+        if one.name in STATUS:
+            pins.append(f"{STATUS[one.name]} = ({'Running AND ' * (one.name == 'at_speed')}({holds}))")
     tolerant = any(each.kind == "two_byte_count" for each in drive.tolerances)
     told = [
         f"Slot.TwoByteCount = {tolerant}".upper(),
-        f"Slot.SilenceMs = {int(silence.milliseconds or 0) if silence else 0}",
+        f"Slot.SilenceMs = {int(serial(drive).silence_ms)}",
         f"Slot.ExceptionAdd = {dialect.add}",
         f"Slot.ErrorFunction = {dialect.function or 0}",
         f"Slot.ErrorAddress = {word(dialect.address or 0)}",
         f"Slot.BusyReason = {busy}",
     ]
-    ready = [_holds(drive, each) for one in drive.operation.status if one.shows == "ready" for each in one.any]
-    verify = [(Decoded(drive).holds(each), _holds(drive, each)) for each in drive.operation.reference.verify]
+    ready = [_holds(drive, each) for each in shows.shows("ready")]
+    verify = [(Decoded(drive).holds(each), _holds(drive, each)) for each in shows.verify]
     return {
         "ready_shown": f"(CommOk AND ({_any(ready)}))" if ready else "TRUE",
         "verified": _every(word for _, word in verify),
-        "settings_since": _every(f"Reads.Sure{number}" for number in _settings_reads(drive)),
-        "settings_seen": _every(f"Reads.Since{number}" for number in _verifying(drive)) if verify else "FALSE",
-        "settled_read": "(NOT Known.Settled.Proved OR Reads.SettingsRead)" if _settings_reads(drive) else "TRUE",
+        "settings_since": _every(f"Reads.Sure{number}" for number in roles(drive).verify),
+        "settings_seen": _every(f"Reads.Since{number}" for number in roles(drive).setting) if verify else "FALSE",
+        "settled_read": "(NOT Known.Settled.Proved OR Reads.SettingsRead)" if roles(drive).verify else "TRUE",
         "settings_said": _every(f"({decoded}) = ({word})" for decoded, word in verify),
         "said": _every(said),
         "pins": _every(pins),
         "told": _every(told),
-        "at_speed": "(Running OR NOT AtSpeed)" if "at_speed" in {one.shows for one in drive.operation.status} else NEAR,
+        "at_speed": "(Running OR NOT AtSpeed)" if shows.shows("at_speed") else NEAR,
         "unchecked": f"(ManualChecked <> {checked(drive)})" if second_hand(drive) else "FALSE",
-        "other_maximum": "(Reads.SettingsRead AND NOT SameMaximum)" if drive.operation.own_maximum else "FALSE",
-        "valid": _every(_valid(drive, one) for one in drive.operation.measures),
+        "other_maximum": "(Reads.SettingsRead AND NOT SameMaximum)" if own_maximum(drive) else "FALSE",
+        "valid": _every(_valid(drive, one) for one in measures(drive)),
     }
 
 
-def _valid(drive: Drive, one: Measured) -> str:
+def _valid(drive: Drive, one: Measure) -> str:
     """When a measure may be shown as valid: it is young, and its scale is known."""
-    reads, row, (name, unit, setting) = enumerate(polls(drive), 1), drive.register_at(one.register), MEASURES[one.shows]
-    number = next(number for number, poll in reads if poll.address <= one.register < poll.address + poll.words)
-    known = row is not None and row.scale is not None and UNIT_NAMES.get(row.unit or "") == unit
-    scaled = "TRUE" if known else f"(Settings.{setting} > 0.0) AND (Settings.{setting} <= 1.0E6)"
+    name, _, setting = PINS[one.name]
+    number = next(number for number, poll in enumerate(polls(drive), 1) if one.register in poll.addresses)
+    scaled = "TRUE" if one.quantity.factors else f"(Settings.{setting} > 0.0) AND (Settings.{setting} <= 1.0E6)"
     return f"NOT Diagnosis.{name}Valid OR CommOk AND (Reads.Age{number} <= Usual.StaleMs) AND {scaled}"
 
 
 def _reference(drive: Drive) -> dict[str, str]:
     """When the errors of a reference are so that depend on what the map knows of its scale."""
-    row = drive.register_at(drive.operation.reference.register, "w")
-    spec = drive.operation.reference
-    scaled = (row is not None and row.scale is not None) or spec.full_scale is not None
-    percent = scaled and (
-        spec.means == "percent_of_maximum" or (spec.means.endswith("full_scale") and not spec.full_scale_hz)
-    )
-    usable = "(ReferenceScale > 0.0) AND (ReferenceScale <= 1.0E6)"
-    if scaled and spec.means == "speed":
+    has = reference(drive)
+    scaled, usable = has.scaled, "(ReferenceScale > 0.0) AND (ReferenceScale <= 1.0E6)"
+    if has.in_rpm:
         scaled, usable = False, "(PolePairs >= 1) AND (PolePairs <= 100)"
-    by_sign = drive.operation.by_sign
-    signed = row is not None and row.signed and (by_sign or not row.words)
+    by_sign, signed = has.signed, has.quantity.signed and (has.signed or not has.pair)
     negative = "({word} AND WORD#16#8000) <> WORD#16#0000"
     word_sign = f"(Value = WORD#16#0000) OR (({negative.format(word='Value')}) = {'Reverse' if by_sign else 'FALSE'})"
     sent = negative.format(word="Control.SentWord")
@@ -335,7 +297,7 @@ def _reference(drive: Drive) -> dict[str, str]:
         "sent_sign": reverses if by_sign else "TRUE",
         "scale_known": "TRUE" if scaled else f"({usable})",
         "no_scale": "FALSE" if scaled else f"(ErrorID = 15) AND NOT ({usable})",
-        "no_full_scale": "TRUE" if percent else "NOT ((FullScaleHz >= 0.0) AND (FullScaleHz <= 0.0))",
+        "no_full_scale": "TRUE" if has.percent else "NOT ((FullScaleHz >= 0.0) AND (FullScaleHz <= 0.0))",
     }
 
 
@@ -354,24 +316,9 @@ def _holds_ms(drive: Drive) -> Iterator[str]:
                 yield f"NOT ({sent}) OR (Orders.HoldMs = {hold})"
 
 
-def _proof_reads(drive: Drive) -> list[int]:
-    """The numbers of the polls that bring what proves standstill."""
-    wanted = {one.register for one in drive.operation.standstill.all}
-    numbered = enumerate(polls(drive), 1)
-    return [number for number, poll in numbered if wanted & set(range(poll.address, poll.address + poll.words))]
-
-
-def _speed_reads(drive: Drive) -> list[int]:
-    """The numbers of the polls that bring the frequency among the proof; all of the proof where it has none."""
-    proof = {one.register for one in drive.operation.standstill.all}
-    speed = {one.register for one in drive.operation.measures if one.shows == "output_frequency"} & proof
-    numbered = enumerate(polls(drive), 1)
-    return [at for at, poll in numbered if (speed or proof) & set(range(poll.address, poll.address + poll.words))]
-
-
 def _command_registers(drive: Drive) -> set[int]:
     written = {write.register for one in drive.operation.commands for write in one.writes}
-    return written | {*whole(drive, drive.operation.reference.register)}
+    return written | {*reference(drive).registers}
 
 
 def _beside(register: int) -> str:

@@ -1,29 +1,28 @@
 """Map -> values ready to print: one class per template of a drive. No Jinja in here, and no drive by name."""
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from fractions import Fraction
 from typing import Literal
 
 from driveblocks import __version__
 from driveblocks.maps import names
 from driveblocks.maps.form import Span, address_text, bits_text, is_bit, space_of
 from driveblocks.maps.model import (
-    Broadcast,
     Command,
-    Condition,
     Drive,
     Register,
-    Scale,
     Section,
-    State,
-    UnitAddress,
     Value,
 )
 from driveblocks.maps.names import UNIT_NAMES, symbol
 from driveblocks.maps.plan import READ_WORDS, WRITE_WORDS, Plan, Words, holding
 from driveblocks.maps.revision import revision
+from driveblocks.meaning.pattern import WORD, Pattern, bits_of
+from driveblocks.meaning.quantity import Quantity, of_row
+from driveblocks.meaning.reference import reference
+from driveblocks.meaning.serial import Broadcast, Serial, serial
+from driveblocks.meaning.status import registers, status
 from driveblocks.render.expression import Test, is_real
 
 STANDARD_EXCEPTION_ADD = 0x80
@@ -152,7 +151,7 @@ class Request:
     """An ASCII frame holds less than an RTU frame."""
     longest: int
     """Words of the longest write."""
-    unit: UnitAddress
+    serial: Serial
     beyond: bool
     """There are addresses that the standard reserves."""
     unit_pin: str
@@ -169,7 +168,8 @@ def request(drive: Drive, allowed: Plan) -> Request:
         for code, folder in FUNCTIONS.items()
         if code in allowed.functions and not (code == 4 and elsewhere)
     }
-    modes, unit, broadcast = drive.serial.mode.modes, drive.serial.unit, drive.serial.broadcast
+    line = serial(drive)
+    modes, broadcast = line.modes, line.broadcast
     most = allowed.rtu if "rtu" in modes else _without_framing(drive)
     less = allowed.ascii.read < most.read or (16 in functions and allowed.ascii.write < most.write)
     return Request(
@@ -181,11 +181,11 @@ def request(drive: Drive, allowed: Plan) -> Request:
         ascii=allowed.ascii,
         tight="ascii" in modes and less,
         longest=most.write if "rtu" in modes else min(most.write, allowed.ascii.write),
-        unit=unit,
-        beyond=unit.max > 247,
-        unit_pin="Standard" if unit.max > 247 else "UnitAddress",
+        serial=line,
+        beyond=line.highest > 247,
+        unit_pin="Standard" if line.highest > 247 else "UnitAddress",
         broadcast=broadcast,
-        start_addresses=broadcast.start_addresses if broadcast else (),
+        start_addresses=broadcast.starts if broadcast else (),
         example_read=next((span.first for span in holding(allowed.readable)), 0),
     )
 
@@ -250,11 +250,7 @@ class Row:
     note: str
     source: str
     parts: tuple[Part, ...] = ()
-    unit: str | None = None
-    scale: Scale | None = None
-    signed: bool = False
-    pair: bool = False
-    """Its value has 32 bits."""
+    quantity: Quantity | None = None
     kind: str = ""
     """The type of its number."""
     read: bool = True
@@ -274,8 +270,8 @@ def scales(drive: Drive) -> Iterator[Row]:
     for section, row in drive.registers():
         if row.scale is not None and row.unit is not None:
             named = _register(drive, section, row, UNIT_NAMES[row.unit])
-            pair, kind = row.words is not None, "DINT" if row.signed else "UDINT" if row.words else "UINT"
-            yield replace(named, unit=row.unit, scale=row.scale, signed=row.signed, pair=pair, kind=kind)
+            kind = "DINT" if row.signed else "UDINT" if row.words else "UINT"
+            yield replace(named, quantity=of_row(row, row.address.first), kind=kind)
 
 
 def _register(drive: Drive, section: Section, row: Register, suffix: str) -> Row:
@@ -432,11 +428,6 @@ def kept(drive: Drive) -> dict[int, int]:
     return found
 
 
-def bits_of(spans: Iterable[Span]) -> int:
-    """The word in which the bits of some spans are set."""
-    return sum(1 << bit for bit in {bit for span in spans for bit in span})
-
-
 def _told(one: Command, stop: Command, keeps: dict[int, Keep]) -> Told:
     """A command; a reset beside the run bits is a stop with the bits of the reset."""
     if one.value is not None:
@@ -447,63 +438,15 @@ def _told(one: Command, stop: Command, keeps: dict[int, Keep]) -> Told:
     return Told(one.register, bits, keeps.get(one.register))
 
 
-@dataclass(frozen=True)
-class Referred:
+def referred(drive: Drive) -> dict[str, object]:
     """For Reference."""
-
-    source: str
-    register: int
-    percent: bool
-    """It is a part of FullScaleHz, which is 100 %."""
-    maximum: str
-    """What is 100 %."""
-    scaled: bool
-    """How many counts there are is known."""
-    ratio: Fraction
-    """Counts per hertz, or of 100 %."""
-    exact: bool
-    """A REAL holds it."""
-    verify: tuple[Condition, ...]
-    in_rpm: bool
-    """It counts in r/min, which are 60 per Hz of a motor with one pole pair."""
-    signed: bool
-    """A negative word reverses."""
-    highest: int
-    highest_why: str
-    pair: str | None
-    """Of a reference of 32 bits, the word that comes first; its high word is 0."""
-
-
-def reference(drive: Drive) -> Referred:
-    """How a speed becomes a word."""
-    spec = drive.operation.reference
-    row = drive.register_at(spec.register, "w")
-    assert row is not None  # noqa: S101  (a checked map lists its reference register)
-    percent = spec.means == "percent_of_maximum" or (spec.full_scale is not None and spec.full_scale_hz is None)
-    ratio = (100 if percent else 1) / Fraction(row.scale.factor if row.scale else 1)
-    if spec.full_scale is not None:
-        ratio = spec.full_scale / Fraction(spec.full_scale_hz or 1)
-    in_rpm = spec.means == "speed" and row.scale is not None
-    ratio *= 60 if in_rpm else 1
-    scaled = row.scale is not None or spec.full_scale is not None
-    highest, why = (
-        (row.range.max, "the range of the register") if row.range else (32767 if row.signed else 65535, "the word")
-    )
-    return Referred(
-        source=source_of(drive, spec.source),
-        register=spec.register,
-        percent=percent and scaled,
-        maximum=spec.maximum or "the maximum frequency",
-        scaled=scaled,
-        ratio=ratio,
-        exact=is_real(ratio),
-        verify=spec.verify,
-        in_rpm=in_rpm,
-        signed=drive.operation.by_sign,
-        highest=highest,
-        highest_why=f"{why} ends here",
-        pair=(row.order or "high_first") if row.words else None,
-    )
+    has = reference(drive)
+    return vars(has) | {
+        "source": source_of(drive, has.said.source),
+        "exact": is_real(has.ratio),
+        "highest_why": f"{'the range of the register' if has.ranged else 'the word'} ends here",
+        "verify": status(drive).verify,
+    }
 
 
 @dataclass(frozen=True)
@@ -513,21 +456,21 @@ class Standstill:
     why: str
     source: str
     words: list[Word]
-    conditions: tuple[Condition, ...]
+    conditions: tuple[Pattern, ...]
     tests: list[Test]
 
 
 def standstill(drive: Drive) -> Standstill:
     """What proves that the motor is at standstill."""
-    proof = drive.operation.standstill
-    words = [word_input(drive, address) for address in dict.fromkeys(one.register for one in proof.all)]
+    proof = status(drive).standstill
+    words = [word_input(drive, address) for address in registers(proof.patterns)]
     pins = {word.address: word.name for word in words}
     return Standstill(
         why=_elsewhere(proof.why[:1].upper() + proof.why[1:].rstrip(".") + "."),
-        source=source_of(drive, proof.source),
+        source=source_of(drive, proof.said.source),
         words=words,
-        conditions=proof.all,
-        tests=[tested(pins[one.register], one) for one in proof.all],
+        conditions=proof.patterns,
+        tests=[tested(pins[one.register], one) for one in proof.patterns],
     )
 
 
@@ -538,13 +481,9 @@ def word_input(drive: Drive, address: int) -> Word:
     return Word(names.word_pin(row, address), address, address_text(address), row.name or "", bit=is_bit(address))
 
 
-def tested(pin: str, condition: Condition | State) -> Test:
-    """A condition, or a state, as a test of the word at a pin; the value of a bit or field is moved to its place."""
-    if isinstance(condition, State):
-        return Test(pin, condition.mask or 0, condition.equals)
-    if condition.bit is None:
-        return Test(pin, condition.mask or 0, condition.equals, bool(condition.differs))
-    return Test(pin, bits_of([condition.bit]), condition.equals << condition.bit.first, bool(condition.differs))
+def tested(pin: str, one: Pattern) -> Test:
+    """A pattern as a test of the word at a pin."""
+    return Test(pin, one.mask if one.mask != WORD else 0, one.value, one.differs)
 
 
 @dataclass(frozen=True)

@@ -2,12 +2,11 @@
 
 from dataclasses import dataclass
 
-from driveblocks.maps.model import Condition, Drive, State
+from driveblocks.maps.model import Drive
+from driveblocks.meaning.pattern import WORD, Pattern
 from driveblocks.render import context
 from driveblocks.render.context import Row, Word
 from driveblocks.render.expression import Test, holds
-
-WORD = 0xFFFF
 
 
 @dataclass(frozen=True)
@@ -29,8 +28,8 @@ class Decoded:
         self._decoders = {one.address_text: one for one in context.decoders(drive) if one.read}
         self.used: list[Call] = []
 
-    def holds(self, one: Condition | State) -> str:
-        """An expression that is TRUE when a condition holds: an output of a decoder, or a test of the word itself."""
+    def holds(self, one: Pattern) -> str:
+        """An expression that is TRUE when a pattern holds: an output of a decoder, or a test of the word itself."""
         word = context.word_input(self._drive, one.register)
         test = context.tested("Value", one)
         decoder = self._decoders.get(word.address_text)

@@ -7,10 +7,9 @@ from functools import reduce
 from itertools import pairwise
 from operator import or_
 
-from driveblocks.maps import model, names
+from driveblocks.maps import names
 from driveblocks.maps.form import address_text, is_bit
-from driveblocks.maps.model import Command, Condition, Drive, Scale, State, Status, UnitAddress, kept
-from driveblocks.maps.pair import places
+from driveblocks.maps.model import Command, Drive, kept
 from driveblocks.maps.plan import writes_by
 from driveblocks.maps.polls import (
     Poll,
@@ -20,13 +19,17 @@ from driveblocks.maps.polls import (
     polls,
     schedule,
     slow_words,
-    speed_words,
-    young_words,
 )
 from driveblocks.maps.revision import checked
 from driveblocks.maps.rivals import First, first_reads, refusals
 from driveblocks.maps.trust import second_hand
 from driveblocks.maps.view import error_number
+from driveblocks.meaning.measure import PINS, Measure, measures, own_maximum
+from driveblocks.meaning.pattern import Pattern, bits_of
+from driveblocks.meaning.reference import Reference, reference
+from driveblocks.meaning.roles import Roles, roles
+from driveblocks.meaning.serial import Serial, serial
+from driveblocks.meaning.status import Sign, status
 from driveblocks.modbus.checksum import crc16
 from driveblocks.modbus.layout import COIL_ON, Dialect
 from driveblocks.render import context
@@ -43,21 +46,6 @@ CONSTANTS = {
     "fault_reset": "RESET_FAULT",
 }  # fmt: skip
 """Command -> the constant of that number, as VFD_Control has it."""
-MEASURES = {
-    "output_frequency": ("OutputFrequency", "Hz", "FrequencyScale"),
-    "output_current": ("OutputCurrent", "A", "CurrentScale"),
-    "output_voltage": ("OutputVoltage", "V", "VoltageScale"),
-    "dc_bus_voltage": ("DcBusVoltage", "V", "DcVoltageScale"),
-    "output_power": ("OutputPower", "KW", "PowerScale"),
-    "output_speed": ("OutputSpeed", "Rpm", ""),
-    "output_torque": ("OutputTorque", "Percent", ""),
-    "relative_power": ("RelativePower", "Percent", ""),
-    "drive_temperature": ("DriveTemperature", "DegC", ""),
-    "motor_temperature": ("MotorTemperature", "DegC", ""),
-    "operating_time": ("OperatingTime", "H", ""),
-    "energy": ("Energy", "KWh", ""),
-}
-"""What a register can show -> the pin, its unit, and the setting that replaces a scale, where there is one."""
 UNSIGNED = ("output_frequency", "output_speed")
 """What is shown without its sign, which is the direction."""
 PINNED = ("output_frequency", "output_current")
@@ -153,10 +141,9 @@ class Identified:
 
 @dataclass(frozen=True)
 class InCommand:
-    """What all has to hold while the bus is in command, and the reads that bring it."""
+    """What all has to hold while the bus is in command."""
 
     holds: list[str]
-    reads: list[int]
     source: str
 
 
@@ -165,7 +152,7 @@ class Maximum:
     """The word of the drive's own maximum frequency, its scale and the function that applies it."""
 
     word: Word
-    scale: Scale | None
+    scale: Decimal | None
     function: str
     source: str
 
@@ -203,7 +190,7 @@ class Measured:
     word: Word
     low: Word | None
     """The low word of a value of 32 bits, whose high one is the word."""
-    scale: Scale | None
+    scale: Decimal | None
     function: str
     when: str | None
     """What the scale holds for; of several, one of these."""
@@ -227,21 +214,11 @@ class Reading:
     places: dict[int, list[int]]
     """Read -> its places among the turns."""
     proof: list[Word]
-    proof_reads: list[int]
-    speed_reads: list[int]
-    """Those that bring the frequency among the proof; where it has none, all of the proof."""
     fault: Faulty
     warned: Faulty | None
     """Where the code of a warning comes from."""
-    fault_reads: list[int]
-    fast_reads: list[int]
-    state_reads: list[int]
-    verify_reads: list[int]
-    measure_reads: list[int]
-    young_reads: list[int]
-    """Those of what is shown while they are young: measures, and the code of a warning."""
-    running_reads: list[int]
-    """Those that show whether it runs."""
+    roles: Roles
+    """Which reads bring what; of each role templates have the name, with `_reads`."""
     status_polls: int
     """In how many polls of the turns all fast ones are read again, at the most."""
     several: bool
@@ -288,16 +265,7 @@ class Ordering:
     """That of the reference."""
     mixed: bool
     """Not all are written by one function."""
-    pair: str | None
-    """The word that comes first in a reference of 32 bits."""
-    reference: int
-    scaled: bool
-    percent: bool
-    in_rpm: bool
-    """The reference is in r/min."""
-    signed: bool
-    """A negative reference reverses."""
-    maximum: str
+    referred: Reference
     silent: tuple[int, int] | None
     """The write of the fault reset that makes the drive silent, and for how long, ms."""
 
@@ -309,7 +277,7 @@ class Own:
     source: str
     prefix: str
     family_number: int
-    unit: UnitAddress
+    serial: Serial
     dialect: Dialect
     two_byte_count: bool
     busy: int
@@ -331,7 +299,9 @@ class Block:
     @property
     def values(self) -> dict[str, object]:
         """What its templates print."""
-        return vars(self.reading) | vars(self.showing) | vars(self.ordering) | vars(self.own)
+        reads = {f"{role}_reads": numbers for role, numbers in vars(self.reading.roles).items()}
+        speed = vars(self.ordering.referred) | {"reference": self.ordering.referred.register}
+        return reads | speed | vars(self.reading) | vars(self.showing) | vars(self.ordering) | vars(self.own)
 
 
 @kept
@@ -343,7 +313,7 @@ def drive_block(drive: Drive) -> Block:
 
 
 def _reading(drive: Drive) -> Reading:
-    reads, operation = polls(drive), drive.operation
+    reads = polls(drive)
     places = list(_places(drive, reads))
     number = {each.address: each.number for each in places}
     turns = [index + 1 for index in schedule(reads)]
@@ -352,27 +322,14 @@ def _reading(drive: Drive) -> Reading:
         number=number,
         turns=turns,
         places={index: [turn for turn, each in enumerate(turns) if each == index] for index in turns},
-        proof=[word_input(drive, each) for each in _proof(drive)],
-        proof_reads=sorted({number[each] for each in _proof(drive)}),
-        speed_reads=sorted({number[each] for each in speed_words(drive)}),
+        proof=context.standstill(drive).words,
         fault=_fault(drive),
         warned=_warned(drive),
-        fault_reads=_fault_reads(drive, number),
-        fast_reads=[index for index, read in enumerate(reads, 1) if read.fast],
-        state_reads=sorted({number[each.register] for each in operation.states}),
-        verify_reads=sorted({number[each] for each in meaning_words(drive)}),
-        measure_reads=sorted({number[one.register] for one in operation.measures}),
-        young_reads=sorted({number[each] for each in young_words(drive)}),
-        running_reads=sorted({number[each.register] for each in _running(drive)}),
+        roles=roles(drive),
         status_polls=max(_gap(turns, index) for index in set(turns) if reads[index - 1].fast),
         several=len({read.function for read in (*reads, *(each.read for each in first_reads(drive)))}) > 1,
         identity=_identity(drive),
     )
-
-
-def _running(drive: Drive) -> Iterator[Condition]:
-    """What shows whether the motor runs."""
-    return (each for one in drive.operation.status if one.shows == "running" for each in one.any)
 
 
 def _gap(turns: list[int], number: int) -> int:
@@ -382,33 +339,31 @@ def _gap(turns: list[int], number: int) -> int:
 
 
 def _showing(drive: Drive, number: dict[int, int], told: Decoded) -> Showing:
-    operation = drive.operation
+    shown, verify = status(drive).shown, status(drive).verify
     return Showing(
         shown=STATUS,
-        status={one.shows: [_condition(drive, each) for each in one.any] for one in operation.status},
-        says={
-            one.shows: [told.holds(each) for each in one.any] for one in sorted(operation.status, key=_running_first)
-        },
-        verify=[_condition(drive, each) for each in operation.reference.verify],
-        verified=[told.holds(each) for each in operation.reference.verify],
-        measures={one.shows: _measure(drive, one, told, number) for one in operation.measures},
-        pins={shows: pin_of(shows) for shows in MEASURES},
-        commanded_by=_commanded_by(drive, number, told),
+        status={one.name: [_tested(drive, each) for each in one.patterns] for one in shown},
+        says={one.name: [told.holds(each) for each in one.patterns] for one in sorted(shown, key=_running_first)},
+        verify=[_tested(drive, each) for each in verify],
+        verified=[told.holds(each) for each in verify],
+        measures={one.name: _measure(drive, one, told, number) for one in measures(drive)},
+        pins={shows: pin_of(shows) for shows in PINS},
+        commanded_by=_commanded_by(drive, told),
         own_maximum=_own_maximum(drive),
         decoders=told.used,
     )
 
 
-def _running_first(one: Status) -> bool:
+def _running_first(one: Sign) -> bool:
     """A key: a drive that stands may say that its reference is reached, which is shown only while it runs."""
-    return one.shows != "running"
+    return one.name != "running"
 
 
 def _ordering(drive: Drive) -> Ordering:
     commands = {one.does: one for one in drive.operation.commands}
     written = [(one, list(_writes(drive, one, commands["stop"]))) for one in commands.values()]
     orders = {ORDERS[one.does]: writes for one, writes in written if one.does in ORDERS}
-    reference, by = context.reference(drive), writes_by(drive, commands["stop"].register)
+    by, of_speed = (writes_by(drive, each) for each in (commands["stop"].register, reference(drive).register))
     return Ordering(
         stops={STOPS[one.does]: writes[0] for one, writes in written if one.does in STOPS},
         orders=orders,
@@ -422,16 +377,9 @@ def _ordering(drive: Drive) -> Ordering:
         can={str(does): one for does, one in commands.items()},
         keeps=context.kept(drive),
         write=by,
-        by=writes_by(drive, reference.register),
-        mixed={each.function for writes in orders.values() for each in writes} | {writes_by(drive, reference.register)}
-        != {by},
-        pair=reference.pair,
-        reference=reference.register,
-        scaled=reference.scaled,
-        percent=reference.percent,
-        in_rpm=reference.in_rpm,
-        signed=reference.signed,
-        maximum=reference.maximum,
+        by=of_speed,
+        mixed={each.function for writes in orders.values() for each in writes} | {of_speed} != {by},
+        referred=reference(drive),
         silent=drive.operation.silenced,
     )
 
@@ -448,11 +396,11 @@ def _own(drive: Drive) -> Own:
         source=context.source_of(drive, stop.source),
         prefix=drive.prefix,
         family_number=family_number(drive.prefix),
-        unit=drive.serial.unit,
+        serial=serial(drive),
         dialect=refusals(drive),
         two_byte_count=reply.two_byte_count,
         busy=_busy(drive),
-        silence=_silence(drive),
+        silence=int(serial(drive).silence_ms),
         second_hand=second_hand(drive),
         checked=checked(drive),
         feeds=drive.watchdog.feeds if drive.watchdog else None,
@@ -469,7 +417,7 @@ def _writes(drive: Drive, one: Command, stop: Command) -> Iterator[Write]:
     Bits that a write neither sets nor clears stay as the write before has left them; a reset begins as a stop.
     """
     kept = context.kept(drive)
-    image = {stop.register: context.bits_of(stop.set)} if one.does == "fault_reset" else {}
+    image = {stop.register: bits_of(stop.set)} if one.does == "fault_reset" else {}
     holds = [*(max(step.for_ms or 0, step.silent_ms or 0) for step in one.first), 0]
     waits = [*(_wait(drive, step.until) for step in one.first), None]
     moves = one.does in ORDERS and one.does != "fault_reset"
@@ -477,16 +425,16 @@ def _writes(drive: Drive, one: Command, stop: Command) -> Iterator[Write]:
         if write.value is not None:
             image[write.register] = write.value
         else:
-            before = image.get(write.register, 0) & ~context.bits_of(write.clear)
-            image[write.register] = before | context.bits_of(write.set)
+            before = image.get(write.register, 0) & ~bits_of(write.clear)
+            image[write.register] = before | bits_of(write.set)
         keep = 0 if write.value is not None else kept.get(write.register, 0)
         bits = image[write.register] and COIL_ON if is_bit(write.register) else image[write.register]
         last = moves and write is one
         yield Write(write.register, bits, keep, hold, wait, last, writes_by(drive, write.register))
 
 
-def _state(drive: Drive, name: str) -> State:
-    return next(one for one in drive.operation.states if one.name == name)
+def _state(drive: Drive, name: str) -> Pattern:
+    return next(one.pattern for one in status(drive).states if one.name == name)
 
 
 def _state_words(drive: Drive) -> dict[int, tuple[str, str]]:
@@ -517,14 +465,14 @@ def _wait(drive: Drive, name: str | None) -> Wait | None:
     if name is None:
         return None
     state = _state(drive, name)
-    return Wait(name, _state_words(drive)[state.register][1], state.mask or 0xFFFF, state.equals)
+    return Wait(name, _state_words(drive)[state.register][1], state.mask, state.value)
 
 
 def _places(drive: Drive, reads: tuple[Poll, ...]) -> Iterator[Word]:
     """Each word that the block keeps, and the number of the read that brings it."""
     for address in sorted(fast_words(drive) | slow_words(drive)):
         for number, read in enumerate(reads, 1):
-            if read.address <= address < read.address + read.words:
+            if address in read.addresses:
                 yield replace(word_input(drive, address), number=number, index=address - read.address)
 
 
@@ -535,12 +483,12 @@ def _read(drive: Drive, number: int, places: list[Word], reads: tuple[Poll, ...]
 
 
 def _identity(drive: Drive) -> Identified | None:
-    firsts = first_reads(drive)
+    firsts, own = first_reads(drive), status(drive).identity
     if not firsts:
         return None
     tests = _plate(drive, firsts[0].read)
     reads = [_shown(each, tests) for each in firsts]
-    sources = [context.source_of(drive, drive.identity.source)] if drive.identity else [each.source for each in firsts]
+    sources = [context.source_of(drive, own.said.source)] if own.patterns else [each.source for each in firsts]
     where = " and ".join(f"at {address_text(each.address)}" for each in reads)
     return Identified(bool(tests), reads, where, _busy(drive) or BUSY * (not drive.errors.codes), "; ".join(sources))
 
@@ -553,34 +501,29 @@ def _shown(first: First, tests: list[Masked]) -> Shown:
 
 def _plate(drive: Drive, read: Poll) -> list[Masked]:
     """The tests of the map's identity, where it has one."""
-    conditions = drive.identity.all if drive.identity else ()
-    tests = [(each.register - read.address, _condition(drive, each)) for each in conditions]
-    return [Masked(index, test.mask or 0xFFFF, test.value) for index, test in tests]
+    patterns = status(drive).identity.patterns
+    return [Masked(each.register - read.address, each.mask, each.value) for each in patterns]
 
 
-def _commanded_by(drive: Drive, number: dict[int, int], told: Decoded) -> InCommand | None:
-    bus = drive.operation.commanded_by
-    if bus is None:
+def _commanded_by(drive: Drive, told: Decoded) -> InCommand | None:
+    bus = status(drive).by_bus
+    if not bus.patterns:
         return None
-    reads = sorted({number[each.register] for each in bus.all})
-    return InCommand([told.holds(each) for each in bus.all], reads, context.source_of(drive, bus.source))
+    holds = [told.holds(each) for each in bus.patterns]
+    return InCommand(holds, context.source_of(drive, bus.said.source))
 
 
 def _own_maximum(drive: Drive) -> Maximum | None:
-    maximum = drive.operation.own_maximum
+    maximum = own_maximum(drive)
     row = drive.register_at(maximum.register) if maximum else None
     if maximum is None or row is None:
         return None
     function = names.block(drive.prefix, names.symbol(row) + names.UNIT_NAMES[row.unit or "Hz"])
-    source = context.source_of(drive, maximum.source)
-    return Maximum(word_input(drive, maximum.register), row.scale, function, source)
+    source = context.source_of(drive, maximum.said.source)
+    return Maximum(word_input(drive, maximum.register), maximum.quantity.factor, function, source)
 
 
-def _proof(drive: Drive) -> list[int]:
-    return list(dict.fromkeys(one.register for one in drive.operation.standstill.all))
-
-
-def _condition(drive: Drive, one: Condition) -> Test:
+def _tested(drive: Drive, one: Pattern) -> Test:
     return context.tested(word_input(drive, one.register).name, one)
 
 
@@ -598,58 +541,41 @@ def _warned(drive: Drive) -> Faulty | None:
     if warnings is None:
         return None
     word, bits = word_input(drive, warnings.register), warnings.bits
-    return Faulty(word, [], context.bits_of([bits]), 1 << bits.first) if bits else Faulty(word, [])
-
-
-def _fault_reads(drive: Drive, number: dict[int, int]) -> list[int]:
-    """The reads that show whether there is a fault, and which."""
-    shown = [each.register for one in drive.operation.status if one.shows == "fault" for each in one.any]
-    fault = _fault(drive)
-    words = [fault.word] if fault.word else fault.words
-    return sorted({number[each] for each in (*shown, *(word.address for word in words))})
+    return Faulty(word, [], bits_of([bits]), 1 << bits.first) if bits else Faulty(word, [])
 
 
 def pin_of(shows: str) -> Pin:
     """Where a drive block shows a measure: two have pins of their own, all say in Diagnosis whether they are valid."""
-    name, unit, setting = MEASURES[shows]
+    name, unit, setting = PINS[shows]
     where = "" if shows in PINNED else "Diagnosis."
     return Pin(f"{where}{name}{unit}", f"{name}Valid", unit, setting)
 
 
-def _measure(drive: Drive, one: model.Measured, told: Decoded, number: dict[int, int]) -> Measured:
-    row = drive.register_at(one.register)
+def _measure(drive: Drive, one: Measure, told: Decoded, number: dict[int, int]) -> Measured:
+    row, has = drive.register_at(one.register), one.quantity
     assert row is not None  # noqa: S101  (a checked map lists the registers that it measures)
-    scale = row.scale if names.UNIT_NAMES.get(row.unit or "") == MEASURES[one.shows][1] else None
-    holds = [told.holds(each) for each in scale.conditions] if scale else []
-    shown = pin_of(one.shows)
-    high, low = places(row, one.register) if row.words else (one.register, one.register)
+    holds = [told.holds(each.when) for each in has.factors if each.when]
+    shown = pin_of(one.name)
     return Measured(
         pin=shown.pin,
         valid=shown.valid,
         unit=shown.unit,
         setting=shown.setting,
-        word=word_input(drive, high),
-        low=word_input(drive, low) if row.words else None,
-        scale=scale,
-        function=names.block(drive.prefix, names.symbol(row) + MEASURES[one.shows][1]),
+        word=word_input(drive, has.high),
+        low=word_input(drive, has.low) if has.pair else None,
+        scale=has.factor,
+        function=names.block(drive.prefix, names.symbol(row) + shown.unit),
         when=" OR ".join(holds) if len(holds) < 2 else f"({' OR '.join(holds)})",
-        known=_known(drive, scale, one.register, number),
-        choices=[(hold, factor) for hold, (_, factor) in zip(holds, scale.choices, strict=True)]
-        if scale and scale.otherwise
-        else [],
-        signed=row.signed,
-        magnitude=row.signed and one.shows in UNSIGNED,
+        known=_known(drive, one, number),
+        choices=list(zip(holds, (each.value for each in has.factors), strict=True)) if has.factors[1:] else [],
+        signed=has.signed,
+        magnitude=has.signed and one.name in UNSIGNED,
     )
 
 
-def _known(drive: Drive, scale: Scale | None, register: int, number: dict[int, int]) -> str:
+def _known(drive: Drive, one: Measure, number: dict[int, int]) -> str:
     """Whether what a scale depends on was read: with what the reference depends on, or by itself; empty: with it."""
-    asked = {each.register for each in scale.conditions} if scale else set()
-    own = sorted({number[each] for each in asked - meaning_words(drive)} - {number[register]})
+    asked = {each.when.register for each in one.quantity.factors if each.when}
+    own = sorted({number[each] for each in asked - meaning_words(drive)} - {number[one.register]})
     verified = ["Reads.SettingsRead"] if asked & meaning_words(drive) else []
     return " AND ".join(verified + [f"Reads.Young{each}" for each in own])
-
-
-def _silence(drive: Drive) -> int:
-    silence = drive.serial.silence
-    return int(silence.milliseconds or 0) if silence else 0

@@ -8,7 +8,6 @@ from itertools import chain
 import jinja2
 
 from driveblocks.maps import form, view
-from driveblocks.maps.model import Condition
 from driveblocks.modbus.checksum import MODBUS
 from driveblocks.render import constants, expression, results
 from structured_text.language import writing
@@ -70,7 +69,6 @@ def environment() -> jinja2.Environment:
         taken=taken,
         turns=turns,
         either=either,
-        condition=condition,
         holds=expression.holds,
         statements=expression.statements,
         within=expression.within,
@@ -167,14 +165,6 @@ def either(tests: Sequence[str]) -> str:
         return tests[0]
     apart = "\n      OR " if sum(map(len, tests)) > WIDE else " OR "
     return f"({apart.join(tests)})"
-
-
-def condition(one: Condition) -> str:
-    """`000FH bit 0 = 0`."""
-    if one.mask is not None:
-        return form.masked_text(one.register, one.mask, one.equals)
-    bits = f" bit{'s' * (len(one.bit) > 1)} {form.bits_text(one.bit)}" if one.bit else ""
-    return f"{form.address_text(one.register)}{bits} = {one.equals}"
 
 
 def crc_table(octets: int = 1) -> str:

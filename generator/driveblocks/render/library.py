@@ -150,7 +150,7 @@ def _blocks(drive: Drive) -> Iterator[tuple[str, Mapping[str, object]]]:
     yield "Reply", vars(context.reply(drive))
     if drive.operation.in_one_word:
         yield "Command", vars(context.command(drive))
-    yield "Reference", vars(context.reference(drive))
+    yield "Reference", context.referred(drive)
     yield "Standstill", vars(context.standstill(drive))
     bits = context.fault_number(drive)
     if bits is not None:

@@ -4,6 +4,9 @@ from dataclasses import dataclass
 from math import ceil
 
 from driveblocks.maps.model import Drive
+from driveblocks.meaning.reference import Reference, reference
+from driveblocks.meaning.serial import Serial, serial
+from driveblocks.meaning.status import registers, status
 from driveblocks.render import context
 from driveblocks.render.context import Word
 from driveblocks.render.drive import drive_block
@@ -16,30 +19,17 @@ PATIENCE_MS = 500
 
 
 @dataclass(frozen=True)
-class Port:
-    """Bit rate, parity (1 odd, 2 even) and bits of a character; whether the manual has them."""
-
-    rate: int
-    bits: int
-    parity: int
-    known: bool
-
-
-@dataclass(frozen=True)
 class Motor:
     """For motor/: the drive's name and what is sent to it, and the factory settings of its line."""
 
     drive: Drive
     name: str
     family: str
-    port: Port
+    port: Serial
     scan: int
     has_reset: bool
     second_hand: bool
-    unscaled: bool
-    in_rpm: bool
-    percent: bool
-    maximum: str
+    reference: Reference
     checked: int
     ascii: bool
     pause: int
@@ -53,16 +43,13 @@ def motor(drive: Drive) -> Motor:
         drive=drive,
         name=f"{drive.prefix}_Drive",
         family=context.identity(drive).family,
-        port=_port(drive),
+        port=serial(drive),
         scan=SCAN_MS,
         has_reset="fault_reset" in ordering.can,
         second_hand=own.second_hand,
-        unscaled=not ordering.scaled,
-        in_rpm=ordering.in_rpm,
-        percent=ordering.percent,
-        maximum=ordering.maximum,
+        reference=reference(drive),
         checked=own.checked,
-        ascii="rtu" not in drive.serial.mode.modes,
+        ascii=serial(drive).ascii,
         pause=_pause(drive),
         patience=PATIENCE_MS,
     )
@@ -70,17 +57,8 @@ def motor(drive: Drive) -> Motor:
 
 def _pause(drive: Drive) -> int:
     """Silence that a Modbus master of the PLC has to be set to, ms: by itself it keeps 3.5 characters."""
-    silence = drive.serial.silence and drive.serial.silence.milliseconds
+    silence = serial(drive).silence_ms
     return ceil(silence) + 1 if silence else 0
-
-
-def _port(drive: Drive) -> Port:
-    """The drive's factory settings where the manual has them."""
-    rates, formats = drive.serial.baud, drive.serial.format
-    rate = next((each.baud for each in rates.codes if each.code == rates.default), 9600) if rates else 9600
-    parity = next((each.parity for each in formats.codes if each.code == formats.default), "") if formats else ""
-    number = {"odd": 1, "even": 2}.get(parity, 0)
-    return Port(rate, 11 if number else 10, number, rates is not None)
 
 
 @dataclass(frozen=True)
@@ -105,9 +83,8 @@ class Master:
 def master(drive: Drive) -> dict[str, object]:
     """What a program prints that has the PLC's own master for its line."""
     proof = context.standstill(drive).words
-    verify = drive.operation.reference.verify
-    registers = dict.fromkeys((*(word.address for word in proof), *(one.register for one in verify)))
-    names = {register: context.word_input(drive, register) for register in registers}
+    verify = status(drive).verify
+    names = {word.address: word for word in (*proof, *(context.word_input(drive, each) for each in registers(verify)))}
     found = Master(
         words=list(names.values()),
         proof=[word.name for word in proof],

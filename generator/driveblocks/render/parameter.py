@@ -8,6 +8,7 @@ from driveblocks.maps.form import Span, is_bit, space_of
 from driveblocks.maps.model import Drive, Storage
 from driveblocks.maps.pair import whole
 from driveblocks.maps.plan import Plan, holding
+from driveblocks.meaning.serial import serial
 from driveblocks.render.context import source_of
 
 MOST = 4
@@ -263,7 +264,7 @@ class Passing:
 
 def passing(drive: Drive, allowed: Plan) -> Passing:
     """What of parameters passes."""
-    rtu, ascii_, modes = allowed.rtu, allowed.ascii, drive.serial.mode.modes
+    rtu, ascii_, modes = allowed.rtu, allowed.ascii, serial(drive).modes
     words = [some for mode, some in (("rtu", rtu), ("ascii", ascii_)) if mode in modes]
     written = min(some.write for some in words) if 16 in allowed.functions else 0
     store = drive.storage if drive.storage.method == "enter_register" else None

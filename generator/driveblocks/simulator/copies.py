@@ -8,6 +8,8 @@ from decimal import Decimal
 from driveblocks.maps.form import Span
 from driveblocks.maps.model import Drive, Register
 from driveblocks.maps.numbering import named
+from driveblocks.meaning.measure import measures
+from driveblocks.meaning.quantity import of_row
 from driveblocks.simulator.habits import Habits
 
 _NAMES = {
@@ -42,8 +44,8 @@ class Copy:
 
 def copies(drive: Drive, habits: Habits, known: Iterable[int]) -> tuple[Copy, ...]:
     """Those of a map whose registers are not known already."""
-    hertz = next((each.register for each in drive.operation.measures if each.shows == "output_frequency"), None)
-    usual = _factor(drive.register_at(hertz), habits.scales.get(hertz, habits.scale)) if hertz else habits.scale
+    hertz = next((each for each in measures(drive) if each.name == "output_frequency"), None)
+    usual = (hertz and hertz.quantity.factor) or habits.scales.get(hertz.register if hertz else -1, habits.scale)
     found, taken = [], set(known)
     unscaled = {"asked": usual, "output_frequency": usual, "speed": Decimal(1)}
     told = [row for _, row in drive.registers() if row.bits and drive.is_read(row)]
@@ -52,7 +54,7 @@ def copies(drive: Drive, habits: Habits, known: Iterable[int]) -> tuple[Copy, ..
         at_fault = (row.name or "").endswith(_AT_FAULT)
         shows, address, same = _shows(row), row.address.first, words.get(_bits(row)) if row.bits else None
         if (shows or same is not None) and (row.access or section.access) == "r" and address not in taken:
-            factor = _factor(row, unscaled.get(shows or "", habits.scale))
+            factor = of_row(row, address).factor or unscaled.get(shows or "", habits.scale)
             milli = max(1, int(1000 * habits.scales.get(address, factor)))
             found.append(Copy(address, shows or "word", milli, row.signed, at_fault, same))
     return tuple(found)
@@ -71,10 +73,6 @@ def _shows(row: Register) -> str | None:
 def _bits(row: Register) -> tuple[tuple[int, str], ...]:
     """What the bits of a row mean: two rows with the same show the same."""
     return tuple((each.bit.first, each.name) for each in row.bits if each.name)
-
-
-def _factor(row: Register | None, otherwise: Decimal) -> Decimal:
-    return row.scale.factor if row and row.scale else otherwise
 
 
 def zeros(drive: Drive, known: Iterable[int]) -> str:

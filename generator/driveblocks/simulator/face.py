@@ -6,7 +6,8 @@ from dataclasses import dataclass, fields, replace
 from itertools import product
 
 from driveblocks.maps.model import Drive
-from driveblocks.simulator.pattern import WORD, Pattern, of_condition
+from driveblocks.meaning.pattern import WORD, Pattern
+from driveblocks.meaning.status import registers, status
 
 
 @dataclass(frozen=True, order=True)
@@ -84,9 +85,9 @@ def _waiting(drive: Drive, words: Words, facts: tuple[Fact, ...]) -> Words:
 
     A map may have that as a state, too, in which a drive is after power-up.
     """
-    states = [Fact(False, ((of_condition(each),),)) for each in drive.operation.states]
+    states = [Fact(False, ((each.pattern,),)) for each in status(drive).states]
     told = [fact for fact in facts if fact not in states]
-    for register in dict.fromkeys(each.register for each in drive.operation.states):
+    for register in registers(each.pattern for each in status(drive).states):
         row = drive.register_at(register)
         for bit in (each.bit.first for each in (row.bits if row else ()) if _DISABLED.match(each.name or "")):
             made = {**words, register: words.get(register, 0) | 1 << bit}
@@ -101,14 +102,13 @@ def _least(words: Words) -> list[int]:
 
 def _facts(drive: Drive, measured: frozenset[int], situation: Situation, state: str | None) -> tuple[Fact, ...]:
     """What must be shown and what must not, what matters most first; measures show themselves."""
-    operation = drive.operation
-    stands = tuple(of_condition(each) for each in operation.standstill.all if each.register not in measured)
-    shown = {status.shows: status.any for status in operation.status}
+    shows = status(drive)
+    stands = tuple(each for each in shows.standstill.patterns if each.register not in measured)
 
     def fact(name: str, *, wanted: bool) -> Fact:
-        return Fact(wanted, tuple((of_condition(each),) for each in shown.get(name, ())))  # type: ignore[call-overload]  # any name
+        return Fact(wanted, tuple((each,) for each in shows.shows(name)))
 
-    named = {each.name: Fact(each.name == state, ((of_condition(each),),)) for each in operation.states}
+    named = {each.name: Fact(each.name == state, ((each.pattern,),)) for each in shows.states}
     now = [named.pop(state)] if state in named else []
     facts = (
         fact("fault", wanted=situation.fault),

@@ -3,13 +3,13 @@
 from collections.abc import Mapping
 
 from driveblocks.maps.model import Drive
+from driveblocks.meaning.pattern import WORD
 from driveblocks.simulator.copies import RPM_OF_ONE_PAIR, Copy
 from driveblocks.simulator.face import Situation
 from driveblocks.simulator.habits import Habits
 from driveblocks.simulator.memory import Memory
 from driveblocks.simulator.motor import Motor
 from driveblocks.simulator.move import MOTIONS, STATE, STOPS, Move, Need
-from driveblocks.simulator.pattern import WORD
 from driveblocks.simulator.plate import plate
 from driveblocks.simulator.table import Gauge, table
 

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from driveblocks.maps.model import Command, Drive, Step
-from driveblocks.simulator.pattern import Pattern, of_write
+from driveblocks.meaning.pattern import Pattern, of_write
 
 STATE = "state"
 EFFECTS = (

@@ -1,32 +1,30 @@
 """What a simulated drive says of itself from the beginning: what it is, its own maximum, and that the bus commands."""
 
 from collections.abc import Iterator
-from decimal import Decimal
 
 from driveblocks.maps.model import Drive
+from driveblocks.meaning.measure import measures, own_maximum
+from driveblocks.meaning.pattern import WORD, Pattern
+from driveblocks.meaning.quantity import quantity
+from driveblocks.meaning.status import status
 from driveblocks.simulator.habits import Habits
-from driveblocks.simulator.pattern import WORD, Pattern, of_condition
 
 
 def plate(drive: Drive, habits: Habits) -> dict[int, int]:
     words: dict[int, int] = {}
-    conditions = [
-        *(drive.identity.all if drive.identity else ()),
-        *(drive.operation.commanded_by.all if drive.operation.commanded_by else ()),
-    ]
-    for each in map(of_condition, conditions):
+    for each in (*status(drive).identity.patterns, *status(drive).by_bus.patterns, *chosen(drive)):
         words[each.register] = words.get(each.register, 0) & ~each.mask | each.value
-    for each in chosen(drive):
-        words[each.register] = words.get(each.register, 0) & ~each.mask | each.value
-    maximum = drive.operation.own_maximum
-    row = drive.register_at(maximum.register) if maximum else None
-    if maximum is not None and row is not None and row.scale is not None:
-        words[maximum.register] = int(habits.maximum_hz / Decimal(row.scale.factor)) & WORD
-    return words
+    return words | own_maximum_word(drive, habits.maximum_hz)
+
+
+def own_maximum_word(drive: Drive, hertz: int) -> dict[int, int]:
+    """The register of the drive's own maximum, and its word, where its scale is known."""
+    one = own_maximum(drive)
+    factor = one.quantity.factor if one else None
+    return {one.register: int(hertz / factor) & WORD} if one and factor else {}
 
 
 def chosen(drive: Drive) -> Iterator[Pattern]:
     """What chooses the first of several scales, by which measures are shown."""
-    rows = (drive.register_at(one.register) for one in drive.operation.measures)
-    scales = (row.scale for row in rows if row and row.scale and row.scale.otherwise)
-    yield from (of_condition(scale.when) for scale in scales if scale.when)
+    several = (quantity(drive, one.register).factors for one in measures(drive))
+    yield from (factors[0].when for factors in several if factors[1:] and factors[0].when)

@@ -7,16 +7,21 @@ from fractions import Fraction
 from functools import lru_cache
 
 from driveblocks.maps.form import Span
-from driveblocks.maps.model import Drive, Reference
+from driveblocks.maps.model import Drive
 from driveblocks.maps.pair import places, whole
 from driveblocks.maps.plan import Words, dialect, most, plan
 from driveblocks.maps.rivals import own_address
+from driveblocks.meaning.measure import measures
+from driveblocks.meaning.pattern import WORD, Pattern, of_write
+from driveblocks.meaning.quantity import quantity
+from driveblocks.meaning.reference import reference
+from driveblocks.meaning.serial import serial
+from driveblocks.meaning.status import registers, status
 from driveblocks.modbus.layout import Dialect
 from driveblocks.simulator.copies import Copy, copies, zeros
 from driveblocks.simulator.face import Situation, face, named_bits, situations
 from driveblocks.simulator.habits import Habits
 from driveblocks.simulator.move import Move, moves
-from driveblocks.simulator.pattern import WORD, Pattern, of_condition, of_write
 from driveblocks.simulator.plate import plate
 from driveblocks.simulator.refusal import codes, refuses_beyond
 
@@ -127,8 +132,8 @@ def table(drive: Drive, habits: Habits, *, ascii_mode: bool = False) -> Table:
     gauges = _gauges(drive, habits)
     measured = frozenset(gauge.register for gauge in gauges)
     words = most(drive, "ascii" if ascii_mode else "rtu")
-    broadcast, bits = drive.serial.broadcast, drive.faults.bits
-    states = tuple(state.name for state in drive.operation.states)
+    broadcast, bits = serial(drive).broadcast, drive.faults.bits
+    states = tuple(state.name for state in status(drive).states)
     named = named_bits(drive, measured)
     codes_at = {drive.faults.present, *drive.warned, *(range(bits.first, bits.last + 1) if bits else ())} - {None}
     known = {*measured, *named, *codes_at, *plate(drive, habits), dialect(drive).address}
@@ -142,7 +147,7 @@ def table(drive: Drive, habits: Habits, *, ascii_mode: bool = False) -> Table:
         writable=allowed.writable,
         group=drive.limits.group.value if drive.limits.group else 0x10000,
         broadcast=broadcast.address if broadcast else None,
-        broadcasts=broadcast.start_addresses if broadcast else (),
+        broadcasts=broadcast.starts if broadcast else (),
         limits=(*_limits(drive), *_choices(drive), *_highest(drive, habits)),
         dialect=dialect(drive),
         codes=codes(drive),
@@ -152,7 +157,7 @@ def table(drive: Drive, habits: Habits, *, ascii_mode: bool = False) -> Table:
         named=named,
         faces=_faces(drive, measured),
         gauges=gauges,
-        reference=_reference(drive, drive.operation.reference, habits),
+        reference=_reference(drive, habits),
         storage=_storage(drive, allowed.writable),
         present=drive.faults.present,
         present_shift=drive.faults.present_bits.first if drive.faults.present_bits else 0,
@@ -180,7 +185,7 @@ def _warning(drive: Drive) -> tuple[int, int]:
 
 @lru_cache(8)
 def _faces(drive: Drive, measured: frozenset[int]) -> dict[tuple[Situation, str | None], dict[int, int]]:
-    names = [state.name for state in drive.operation.states]
+    names = [state.name for state in status(drive).states]
     standing = (each for each in situations() if not each.fault and not each.running)
     keys = [(situation, None) for situation in situations()]
     keys += [(situation, name) for situation in standing for name in names]  # type: ignore[misc]  # str is str | None
@@ -188,30 +193,26 @@ def _faces(drive: Drive, measured: frozenset[int]) -> dict[tuple[Situation, str 
 
 
 def _gauges(drive: Drive, habits: Habits) -> tuple[Gauge, ...]:
-    shows = {at: each.shows for each in drive.operation.measures for at in whole(drive, each.register)}
-    status = {each.register for one in drive.operation.status for each in one.any}
-    status |= {state.register for state in drive.operation.states}
-    for each in drive.operation.standstill.all:
+    shows = {at: each.name for each in measures(drive) for at in whole(drive, each.register)}
+    known = status(drive)
+    states = (one.pattern for one in known.states)
+    told = registers((*(each for one in known.shown for each in one.patterns), *states))
+    for each in known.standstill.patterns:
         # no status, and 0 at standstill: a frequency, or nothing that a motor could show
-        if each.register not in status and each.bit is None and each.mask is None and each.equals == 0:
+        if each.register not in told and each.mask == WORD and each.value == 0:
             for register in whole(drive, each.register):
                 shows.setdefault(register, "output_frequency")
     return tuple(_gauge(drive, habits, register, what) for register, what in sorted(shows.items()))
 
 
 def _gauge(drive: Drive, habits: Habits, register: int, shows: str) -> Gauge:
-    row = drive.register_at(register)
-    milli, signed = max(1, int(1000 * _factor(drive, habits, register))), bool(row and row.signed)
-    if row is None or row.words is None:
-        return Gauge(register, shows, milli, signed)
-    high = register == places(row, whole(drive, register)[0])[0]
-    return Gauge(register, shows, milli, signed, 16 if high else 0)
+    has = quantity(drive, register)
+    shift = (16 if register == has.high else 0) if has.pair else None
+    return Gauge(register, shows, max(1, int(1000 * _factor(drive, habits, register))), has.signed, shift)
 
 
 def _factor(drive: Drive, habits: Habits, register: int) -> Decimal:
-    row = drive.register_at(register)
-    scale = row.scale.factor if row and row.scale else habits.scale
-    return habits.scales.get(register, scale)
+    return habits.scales.get(register, quantity(drive, register).factor or habits.scale)
 
 
 def _limits(drive: Drive) -> tuple[Limit, ...]:
@@ -235,30 +236,19 @@ def _choices(drive: Drive) -> Iterator[Limit]:
 
 def _highest(drive: Drive, habits: Habits) -> Iterator[Limit]:
     """A reference in Hz ends at the drive's own maximum, where the manual has its scale and refuses what is beyond."""
-    row = drive.register_at(drive.operation.reference.register, "w")
-    in_hertz = drive.operation.reference.means == "frequency" and row is not None and not row.range and not row.signed
-    if row is not None and in_hertz and row.scale and refuses_beyond(drive):
-        yield Limit(row.address.first, 0, int(habits.maximum_hz / Decimal(row.scale.factor)), signed=False)
+    one = reference(drive)
+    in_hertz = drive.operation.reference.means == "frequency" and not one.ranged and not one.quantity.signed
+    if in_hertz and one.scaled and refuses_beyond(drive):
+        yield Limit(one.register, 0, int(habits.maximum_hz * one.ratio), signed=False)
 
 
-def _reference(drive: Drive, reference: Reference, habits: Habits) -> Set:
-    row = drive.register_at(reference.register, "w")
-    signed = bool(row and row.signed)
-    factor = _factor(drive, habits, reference.register)
-    times, per = Fraction(1000 * factor).limit_denominator(MOST_PER).as_integer_ratio()
-    if reference.means == "percent_of_maximum":
-        times, per = 1000 * habits.maximum_hz, int(100 / factor)
-    elif reference.means == "speed" and row is not None and row.scale:
-        milli = Fraction(1000 * factor) * habits.pole_pairs / 60
-        times, per = milli.limit_denominator(max(1, int(MOST_TIMES / milli))).as_integer_ratio()
-    elif reference.full_scale is not None:
-        milli = Fraction(1000 * (reference.full_scale_hz or habits.maximum_hz)) / reference.full_scale
-        times, per = milli.limit_denominator(max(1, int(MOST_TIMES / milli))).as_integer_ratio()
-    verify = tuple(of_condition(each) for each in reference.verify)
-    if row is not None and row.words:
-        high, low = places(row, reference.register)
-        return Set(low, times, per, signed, reference.negative_reverses, verify, high)
-    return Set(reference.register, times, per, signed, reference.negative_reverses, verify)
+def _reference(drive: Drive, habits: Habits) -> Set:
+    one = reference(drive)
+    counts = one.ratio if one.scaled else one.ratio / Fraction(_factor(drive, habits, one.register))
+    milli = Fraction(1000 * (habits.maximum_hz if one.part else habits.pole_pairs if one.in_rpm else 1)) / counts
+    times, per = milli.limit_denominator(min(MOST_PER, max(1, int(MOST_TIMES / milli)))).as_integer_ratio()
+    has, above = one.quantity, one.quantity.high if one.pair else None
+    return Set(has.low, times, per, has.signed, one.reverses, status(drive).verify, above)
 
 
 def _around(span: Span, address: int) -> list[Span]:
@@ -274,7 +264,7 @@ def _storage(drive: Drive, writable: tuple[Span, ...]) -> Storage:
     """Parameters are the areas, and writable rows of sections without a command; the rest is never stored."""
     storage = drive.storage
     told = {*(step.register for command in drive.operation.commands for step in command.first)}
-    told |= {each.register for each in drive.operation.commands} | {*whole(drive, drive.operation.reference.register)}
+    told |= {each.register for each in drive.operation.commands} | {*reference(drive).registers}
     sections = [each for each in drive.sections if not any(row.address.first in told for row in each.registers)]
     rows = [row.address for section in sections for row in section.registers]
     areas = [area.addresses for area in drive.areas]

@@ -4,6 +4,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 from driveblocks.maps.model import Drive
+from driveblocks.meaning.serial import serial
 from driveblocks.reference.reply import Dialect, dialect, parse
 from driveblocks.reference.request import BUILDABLE, READS, Asked, Requests, body
 from driveblocks.testing import bench
@@ -63,12 +64,12 @@ def scripts(drive: Drive, stem: str) -> Iterator[Script]:
 
 def question(model: Requests, function: int) -> Asked:
     """A request of two registers, if the drive takes two; its limits do not matter to replies."""
-    most = model.rtu if "rtu" in model.drive.serial.mode.modes else model.ascii
+    most = model.rtu if "rtu" in serial(model.drive).modes else model.ascii
     counts = {3: most.read, 4: most.read, 16: most.write}
     known = model.functions[8].sub_functions if 8 in model.functions else ()
     sub = known[0].code if function == 8 and known else 0
     spans = model.readable if function in READS else model.writable
-    unit = max(model.drive.serial.unit.min, 1)
+    unit = max(serial(model.drive).lowest, 1)
     return asked(function, min(spans, default=0x2100), sub, min(2, counts.get(function, 1)), unit)
 
 

@@ -7,6 +7,7 @@ from typing import Any
 
 from driveblocks.maps.form import Span, address_text
 from driveblocks.maps.model import Drive
+from driveblocks.meaning.serial import serial
 from driveblocks.reference.request import BUILDABLE, COUNTED, READS, Asked, Requests
 from driveblocks.testing import bench
 from driveblocks.testing.code import NUMBERS, WORDS
@@ -108,13 +109,13 @@ def usual(model: Requests, function: int | None = None) -> Asked:
     subs = model.functions[8].sub_functions if 8 in model.functions else ()
     return Asked(
         code,
-        max(model.drive.serial.unit.min, 1),
+        max(serial(model.drive).lowest, 1),
         longest(spans).first,
         1,
         0x1234,
         subs[0].code if subs else 0,
         tuple(PATTERN[index % len(PATTERN)] for index in range(123)),
-        "rtu" not in model.drive.serial.mode.modes,
+        serial(model.drive).ascii,
     )
 
 
@@ -195,7 +196,7 @@ def _cases(model: Requests, base: Asked) -> Iterator[Case]:
 def _modes(model: Requests, own: list[Asked]) -> Iterator[Case]:
     for asked in own:
         for ascii_mode in (False, True):
-            yield Case("mode", replace(asked, ascii=ascii_mode), model.drive.serial.mode.source)
+            yield Case("mode", replace(asked, ascii=ascii_mode), serial(model.drive).said[0].source)
 
 
 def _functions(model: Requests, base: Asked) -> Iterator[Case]:
@@ -206,20 +207,19 @@ def _functions(model: Requests, base: Asked) -> Iterator[Case]:
 
 
 def _units(model: Requests, asked: Asked) -> Iterator[Case]:
-    unit = model.drive.serial.unit
-    for number in sorted(
-        {0, 1, max(unit.min - 1, 0), unit.min, unit.max, unit.max + 1, 247, 248, 255, 256, 257, 65535}
-    ):
-        yield Case("unit address", replace(asked, unit=number), unit.source)
+    line = serial(model.drive)
+    low, high = line.lowest, line.highest
+    for number in sorted({0, 1, max(low - 1, 0), low, high, high + 1, 247, 248, 255, 256, 257, 65535}):
+        yield Case("unit address", replace(asked, unit=number), line.units_said.source)
 
 
 def _broadcasts(model: Requests, asked: Asked) -> Iterator[Case]:
-    cast = model.drive.serial.broadcast
+    cast = serial(model.drive).broadcast
     if cast is None:
         return
     others = [run.first for run in runs(model.writable)[:4]]
-    for address in (*cast.start_addresses, *others):
-        yield Case("broadcast", replace(asked, unit=0, address=address), cast.source)
+    for address in (*cast.starts, *others):
+        yield Case("broadcast", replace(asked, unit=0, address=address), cast.said.source)
 
 
 def _quantities(model: Requests, asked: Asked) -> Iterator[Case]:
@@ -300,13 +300,12 @@ def _two_mistakes(model: Requests, asked: Asked) -> Iterator[Case]:
 
 
 def _mistakes(model: Requests, asked: Asked) -> list[tuple[str, dict[str, Any]]]:
-    unit = model.drive.serial.unit
-    modes = model.drive.serial.mode.modes
+    modes = serial(model.drive).modes
     allowed = model.readable if asked.function in READS else model.writable
     barred = next((address for address in range(0xFFFF, -1, -1) if address not in allowed), 0xFFFF)
     found: list[tuple[str, dict[str, Any]]] = [
         ("no such function", {"function": 7}),
-        ("unit too high", {"unit": unit.max + 1}),
+        ("unit too high", {"unit": serial(model.drive).highest + 1}),
         ("broadcast", {"unit": 0}),
     ]
     if len(modes) == 1:
@@ -328,7 +327,7 @@ def _writes(drive: Drive, stem: str, model: Requests) -> Script:
     bench.declare(program, "Adu", "Words", "Request", Build=f"{drive.prefix}_Request")
     asked = usual(model, 16)
     room = len(longest(model.writable))
-    for ascii_mode in (mode == "ascii" for mode in drive.serial.mode.modes):
+    for ascii_mode in (mode == "ascii" for mode in serial(drive).modes):
         most = min((model.ascii if ascii_mode else model.rtu).write, room)
         for quantity in sorted({1, most}):
             each = replace(asked, quantity=quantity, ascii=ascii_mode, words=asked.words[:quantity])

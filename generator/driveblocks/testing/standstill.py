@@ -5,6 +5,7 @@ from collections.abc import Iterator
 
 from driveblocks.maps.form import address_text
 from driveblocks.maps.model import Drive
+from driveblocks.meaning.status import registers, status
 from driveblocks.reference.fault import numbered
 from driveblocks.reference.naming import word_pin
 from driveblocks.reference.standstill import proven
@@ -46,11 +47,11 @@ def _said(words: dict[int, int]) -> str:
 
 
 def _standstill(drive: Drive, stem: str) -> Script:
-    spec = drive.operation.standstill
-    program = bench.script(drive, stem, "Standstill", "what proves standstill", spec.source)
+    proof = status(drive).standstill
+    program = bench.script(drive, stem, "Standstill", "what proves standstill", proof.said.source)
     bench.declare(program, Proof=f"{drive.prefix}_Standstill")
     table = Table(program)
-    addresses = list(dict.fromkeys(condition.register for condition in spec.all))
+    addresses = list(registers(proof.patterns))
     pins = _pins(drive, table, addresses)
     table.column("Wanted", "BOOL", False, "whether the words prove it")
     table.do(_call("Proof", pins), bench.is_flag("Proof.StandstillProven", "Wanted", "StandstillProven"))
@@ -63,8 +64,8 @@ def _standstill(drive: Drive, stem: str) -> Script:
 
 def _proofs(drive: Drive, addresses: list[int]) -> Iterator[tuple[str, dict[int, int]]]:
     still = dict.fromkeys(addresses, 0)
-    for condition in drive.operation.standstill.all:
-        still[condition.register] |= condition.equals << (condition.bit.first if condition.bit else 0)
+    for pattern in status(drive).standstill.patterns:
+        still[pattern.register] |= pattern.value
     yield "all conditions hold", still
     for address in addresses:
         for bit in range(16):

@@ -10,6 +10,7 @@ from driveblocks.desk.explain.reading import Field, Reader, Reading, Wrong
 from driveblocks.maps.model import Drive
 from driveblocks.maps.plan import dialect
 from driveblocks.maps.problem import Refused
+from driveblocks.meaning.serial import serial
 from driveblocks.modbus import layout, scan
 from driveblocks.modbus.envelope import Wire, open_
 from driveblocks.modbus.frame import ASCII_CHARS, RTU_BYTES
@@ -102,7 +103,7 @@ class Explainer:
 
     def _mode(self, wire: Wire, asked: Asked | None) -> Iterator[Wrong]:
         is_ascii, this = wire.mode == "ascii", f"this is {wire.mode.upper()}"
-        modes = self.drive.serial.mode.modes if self.drive else (wire.mode,)
+        modes = serial(self.drive).modes if self.drive else (wire.mode,)
         if self.drive and wire.mode not in modes and (wire.right or is_ascii):
             yield Wrong(f"{this}, and {self.drive.prefix} speaks {' and '.join(map(str.upper, modes))} only")
         if asked is not None and asked.ascii != is_ascii:

@@ -6,10 +6,10 @@ from decimal import Decimal
 
 from driveblocks.maps import view
 from driveblocks.maps.adu import number
-from driveblocks.maps.conduct import condition
 from driveblocks.maps.form import address_text, bits_text
 from driveblocks.maps.model import Area, Bit, Command, Drive, Register, Step, Use, Value
-from driveblocks.simulator.pattern import of_condition
+from driveblocks.meaning.quantity import of_row
+from driveblocks.meaning.status import status
 
 
 @dataclass(frozen=True)
@@ -106,7 +106,8 @@ def _row(drive: Drive, row: Register, address: int, word: int | None, writing: b
         return known
     if row.words:
         return replace(known, note="one of two words of a value of 32 bits")
-    value = number(word, row.signed) * row.scale.factor if row.scale else None
+    factor = of_row(row, address).factor
+    value = number(word, row.signed) * factor if factor is not None else None
     lines = (
         *_lines(row, word),
         *_faults(drive, row, address, word),
@@ -193,13 +194,11 @@ def _writes(one: Command | Step, address: int, word: int) -> bool:
 
 
 def _notes(drive: Drive, row: Register, word: int, writing: bool) -> Iterator[str]:
-    if row.scale is not None and row.scale.when is not None:
-        yield f"only while {condition(row.scale.when)}"
-        yield from (
-            f"{number(word, row.signed) * one.factor} {row.unit} while {condition(one.when)}"
-            for one in row.scale.otherwise
-        )
-    if row.unit is not None and row.scale is None:
+    factors = of_row(row, row.address.first).factors
+    if factors and factors[0].when is not None:
+        yield f"only while {factors[0].when}"
+        yield from (f"{number(word, row.signed) * one.value} {row.unit} while {one.when}" for one in factors[1:])
+    if row.unit is not None and not factors:
         yield f"in {row.unit}, but the manual gives no scale"
     if row.range is not None and not row.range.holds(number(word, row.signed)):
         yield f"outside the range {row.range.min} to {row.range.max}"
@@ -217,9 +216,9 @@ def _notes(drive: Drive, row: Register, word: int, writing: bool) -> Iterator[st
         yield from _masks(row, word)
     if writing:
         yield from _stores(drive, row)
-    proofs = [one for one in drive.operation.standstill.all if one.register in row.address]
+    proofs = [one for one in status(drive).standstill.patterns if one.register in row.address]
     if not writing and proofs:
-        met = all(of_condition(one).holds(word) for one in proofs)
+        met = all(one.holds(word) for one in proofs)
         yield "as at standstill" if met else "no standstill"
 
 

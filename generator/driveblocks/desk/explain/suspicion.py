@@ -5,6 +5,7 @@ from collections.abc import Iterator
 from driveblocks.maps.form import Span, address_text, span_text
 from driveblocks.maps.model import Drive
 from driveblocks.maps.plan import most, plan, start_of
+from driveblocks.meaning.serial import serial
 from driveblocks.modbus.layout import KNOWN, Layout
 from driveblocks.modbus.request import READS, Asked, asked_by
 
@@ -36,7 +37,7 @@ def _unit(drive: Drive | None, one: Layout) -> Iterator[Told]:
     if unit == 0 and one.direction == "reply":
         yield "unit 0 is the broadcast address, and nobody answers a broadcast", ""
         return
-    known = Span(drive.serial.unit.min, drive.serial.unit.max) if drive else STANDARD_UNITS
+    known = Span(serial(drive).lowest, serial(drive).highest) if drive else STANDARD_UNITS
     if unit != 0 and unit not in known:
         yield f"unit {unit} is out of range: {known.first} to {known.last}", ""
     if unit == 0 and one.function not in (5, 6, 15, 16):
@@ -46,11 +47,11 @@ def _unit(drive: Drive | None, one: Layout) -> Iterator[Told]:
 
 
 def _broadcast(drive: Drive, one: Layout) -> Iterator[Told]:
-    cast = drive.serial.broadcast
+    cast = serial(drive).broadcast
     if cast is None:
         yield "unit 0 is a broadcast, and the map knows of none", ""
-    elif cast.start_addresses and one.number("address") not in cast.start_addresses:
-        yield f"a broadcast starts at {' or '.join(map(address_text, cast.start_addresses))} only", ""
+    elif cast.starts and one.number("address") not in cast.starts:
+        yield f"a broadcast starts at {' or '.join(map(address_text, cast.starts))} only", ""
 
 
 def _function(drive: Drive, one: Layout) -> Told:

@@ -14,7 +14,8 @@ from driveblocks.desk.run.controller import Controller
 from driveblocks.maps.collection import Source
 from driveblocks.maps.model import Drive
 from driveblocks.maps.problem import Refused
-from driveblocks.render.drive import MEASURES, drive_block
+from driveblocks.meaning.measure import PINS, measures
+from driveblocks.meaning.reference import reference
 from driveblocks.simulator.drive import SimulatedDrive
 from driveblocks.simulator.habits import Habits
 
@@ -62,7 +63,7 @@ class Named:
 
     def told(self) -> list[str]:
         """What it is set to, in lines."""
-        full = " (100 %)" if drive_block(self.drive).ordering.percent else ""
+        full = " (100 %)" if reference(self.drive).percent else ""
         given = dict(self.scales)
         scales = [f"{name}={given.get(name, _usual(name))}" for name in open_scales(self.drive)]
         text = ", ".join((f"{self.drive.prefix} at unit {self.unit}: maximum {self.maximum_hz} Hz{full}", *scales))
@@ -74,16 +75,10 @@ class Named:
 
 def open_scales(drive: Drive) -> dict[str, int]:
     """The scales that a drive's manual does not give, by their names in VFD_Settings, each with its register."""
-    operation, found = drive.operation, dict[str, int]()
-    reference = drive.register_at(operation.reference.register, "w")
-    if operation.reference.means == "frequency" and not (reference and reference.scale):
-        found[REFERENCE] = operation.reference.register
-    shown: dict[str, int] = {each.shows: each.register for each in operation.measures}
-    for shows, (_, _, name) in MEASURES.items():
-        row = drive.register_at(shown[shows]) if shows in shown else None
-        if row and not row.scale:
-            found[name] = shown[shows]
-    return found
+    speed = reference(drive)
+    found = {} if speed.scaled or speed.part else {REFERENCE: speed.register}
+    unscaled = {each.name: each.register for each in measures(drive) if not each.quantity.factors}
+    return found | {name: unscaled[shows] for shows, (_, _, name) in PINS.items() if shows in unscaled}
 
 
 def words(named: Sequence[str]) -> list[Word]:

@@ -6,8 +6,8 @@ from collections.abc import Iterator, Mapping
 from driveblocks.maps.form import SPACES, address_text
 from driveblocks.maps.model import Drive
 from driveblocks.maps.plan import write_request
+from driveblocks.meaning.pattern import of_write
 from driveblocks.modbus import frame, layout
-from driveblocks.simulator.pattern import of_write
 
 READS = frozenset({1, 2, 3, 4, 17})
 IDENTIFIES = b"\x2b\x0e"

@@ -29,11 +29,12 @@ from driveblocks.desk.screen import Desk, Heading, Lines, LiveTable, Screen
 from driveblocks.desk.words import LOOPBACK, opening, time
 from driveblocks.maps import catalog
 from driveblocks.maps.problem import Refused
+from driveblocks.meaning.serial import USUAL_BITS, USUAL_RATE, delivered
 from structured_text import files
 from structured_text.visible import file_name
 
 LONGEST_SCAN_US = 60_000_000
-USUAL = {"BitRate": 9600, "CharacterBits": 10}
+USUAL = {"BitRate": USUAL_RATE, "CharacterBits": USUAL_BITS}
 """What a line takes where a pin is 0."""
 SHORTEST_WATCHDOG_US, LONGEST_WATCHDOG_US = 10_000, 600_000_000
 RECKONED_WATCHDOG_US = 30_000_000
@@ -105,7 +106,10 @@ class Setup:
                 raise Refused(f"--format {self._options.form} is no format; write 8N1, 8E1, 8O1, 8N2 or 7E1")
             return form
         bits = self._line("CharacterBits")
+        _, its = delivered(each.drive for each in of_program(self.probe, self._maps))
         found = {(10, 0): "8N1", (11, 0): "8E1", (10, 1): "7E1"}.get((bits, self._line("Ascii")))
+        if its.bits == bits:
+            return its.form
         if found is None:
             raise Refused(f"CharacterBits = {bits} of {self.probe.wiring.line} leaves no format; write --format")
         return found

@@ -14,7 +14,8 @@ from driveblocks.desk.site.register import spans
 from driveblocks.maps.model import Drive
 from driveblocks.maps.pair import whole
 from driveblocks.maps.plan import most, read_request
-from driveblocks.simulator.pattern import of_condition
+from driveblocks.meaning.serial import USUAL_BITS, USUAL_RATE, serial
+from driveblocks.meaning.status import registers, status
 
 LEAST_US = 2_000_000
 """How long it is tried at least: eight drives are not stopped and read in less."""
@@ -25,8 +26,6 @@ ROUNDS = 3
 PATIENT = 4
 """In each of so many rounds, a reply is waited for as long as a gateway may take; in the others other drives come."""
 SAY_US = 5_000_000
-USUAL_RATE, USUAL_BITS = 19200, 11
-"""Of a line that was not called yet."""
 SILENT = "no reply to the stop"
 LATE = "its replies come late: raise PortLateMs, or look at the gateway"
 
@@ -119,8 +118,8 @@ class Stopper:
 
     def _confirm(self, master: Master, unit: int, one: Stop) -> None:
         """Read whether it is at standstill. Between two reads it is stopped again: their replies may look the same."""
-        patterns = [of_condition(each) for each in one.drive.operation.standstill.all]
-        wanted = sorted({word for each in patterns for word in whole(one.drive, each.register)})
+        patterns = status(one.drive).standstill.patterns
+        wanted = sorted({word for each in registers(patterns) for word in whole(one.drive, each)})
         words: dict[int, int] = {}
         for at, span in enumerate(spans(one.drive, wanted, most(one.drive, self.speech.mode).read)):
             if at:
@@ -157,7 +156,6 @@ def waited(stops: Mapping[int, Stop]) -> Collection[int]:
 def speech(controller: Controller, units: dict[int, Drive]) -> Speech:
     """How a program's line is spoken on."""
     number, line = controller.number, controller.wiring.line
-    silences = [each.serial.silence for each in units.values()]
-    milliseconds = max((each.milliseconds or 0 for each in silences if each), default=0)
+    milliseconds = max((serial(each).silence_ms for each in units.values()), default=0)
     bits, rate = number(f"{line}.CharacterBits") or USUAL_BITS, number(f"{line}.BitRate") or USUAL_RATE
     return Speech("ascii" if number(f"{line}.Ascii") else "rtu", 1e6 * bits / rate, int(1000 * milliseconds))

@@ -14,9 +14,9 @@ from driveblocks.desk.frames import QUIET_US
 from driveblocks.desk.master import Master, Speech
 from driveblocks.desk.port import Port
 from driveblocks.desk.site.found import Way
-from driveblocks.desk.site.line import CHARACTER_BITS
 from driveblocks.desk.site.reader import Reads
 from driveblocks.desk.words import LOOPBACK, NO_PORT, is_port
+from driveblocks.meaning.serial import FORMS
 
 LOOK_US = 500
 MOST_US = 1_000_000
@@ -153,5 +153,5 @@ def wrong(name: str | None, address: str | None, rate: int | None, form: str | N
         yield f"--tcp {address} is no address; write HOST:PORT, with a port of 1 to 65535"
     if rate is not None and not 300 <= rate <= 1_000_000:
         yield f"--rate {rate} is out of range; write 300 to 1000000 bit/s"
-    if form is not None and form.upper() not in CHARACTER_BITS:
-        yield f"--format {form} is no format; write one of {', '.join(CHARACTER_BITS)}"
+    if form is not None and form.upper() not in FORMS:
+        yield f"--format {form} is no format; write one of {', '.join(FORMS)}"

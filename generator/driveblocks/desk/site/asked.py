@@ -10,23 +10,21 @@ from driveblocks.desk.run.drives import Named
 from driveblocks.desk.run.drives import named as drives_of
 from driveblocks.desk.run.drives import words as words_of
 from driveblocks.desk.run.watchdog import FIRST_US
-from driveblocks.desk.site.line import CHARACTER_BITS, LEARNED_AFTER, PINS, SLOT, Line, Unit, number
+from driveblocks.desk.site.line import LEARNED_AFTER, PINS, SLOT, Line, Unit, number
 from driveblocks.desk.words import time
 from driveblocks.maps import catalog
 from driveblocks.maps.collection import Source
 from driveblocks.maps.plan import reply_delay, writes_by
 from driveblocks.maps.polls import Poll, polls
 from driveblocks.maps.problem import Refused
+from driveblocks.meaning.serial import FORMS, USUAL_BITS, USUAL_RATE, character, delivered, serial
 from structured_text import files
 from structured_text.engines.embedded.library import EmbeddedInstance
 from structured_text.visible import file_name
 
 MOST_UNITS = 32
-USUAL = {"BitRate": 9600, "CharacterBits": 10}
-"""What a line takes where a pin is 0."""
 USUAL_REPLY_MS = 20
 """What a drive takes until its reply begins, where nobody and no map says more."""
-_PARITY = {"none": "N", "even": "E", "odd": "O"}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -89,8 +87,8 @@ def _wrong_words(words: Words) -> Iterator[str]:
         yield "name a drive or a program; for example: driveblocks line chf@1 jscc@2"
     if words.rate is not None and not 300 <= words.rate <= 1_000_000:
         yield f"--rate {words.rate} is out of range; write 300 to 1000000 bit/s"
-    if words.form is not None and words.form.upper() not in CHARACTER_BITS:
-        yield f"--format {words.form} is no format; write one of {', '.join(CHARACTER_BITS)}"
+    if words.form is not None and words.form.upper() not in FORMS:
+        yield f"--format {words.form} is no format; write one of {', '.join(FORMS)}"
     for count in words.device:
         if not 1 <= count <= 16:
             yield f"--device {count} is out of range; write 1 to 16 registers"
@@ -126,6 +124,7 @@ def _text(words: Words, drives: list[Named], watchdog: int) -> str:
     size = 8 if len(drives) + len(words.device) <= 8 else MOST_UNITS
     taken = {each.unit for each in drives}
     free = (unit for unit in range(1, 248) if unit not in taken)
+    rate, its = delivered(each.drive for each in drives)
     declared, called = [], []
     for at, each in enumerate(drives):
         pins = f"Address := {each.unit}, MaximumHz := 50.0, StopWithinMs := 65534, Settings := Setting"
@@ -140,7 +139,8 @@ def _text(words: Words, drives: list[Named], watchdog: int) -> str:
         f"PROGRAM TypedLine\nVAR\n  RxCount : UINT;\n  RxChars : MB_Adu;\n  TxChars : MB_LineFrame;\n"
         f"  Values : MB_Words16;\n  Setting : VFD_Settings;\n  Slots : MB_Slots{size};\n  Bus : MB_ByteLine{size};\n"
         f"{''.join(declared)}END_VAR\n  Setting.WatchdogMs := {watchdog};\n{''.join(called)}"
-        f"  Bus(RxCount := RxCount, RxChars := RxChars, TxChars := TxChars, Slots := Slots);\nEND_PROGRAM\n"
+        f"  Bus(BitRate := {rate}, CharacterBits := {its.bits},\n"
+        f"    RxCount := RxCount, RxChars := RxChars, TxChars := TxChars, Slots := Slots);\nEND_PROGRAM\n"
     )
 
 
@@ -160,13 +160,13 @@ def _line(words: Words, seen: Controller, loaded: source.Loaded, times: Mapping[
         block[f"{bus}.Slots[{at}].Replies"] = LEARNED_AFTER
         block[f"{bus}.Slots[{at}].LongestReplyMs"] = reply + scan  # the call that sees it may come so much later
     seen.scan(2000 * scan)
-    late, form = times["port_late"], (words.form or "").upper()
+    late, bits = times["port_late"], number(block, f"{bus}.CharacterBits")
     return Line(
         library=loaded.library, size=size, slots=_slots(seen, size) | _requests(seen, size), unlearned=unlearned,
         units=_units(seen, size),
         pins={name: number(block, f"{bus}.{name}") for name in PINS}, within=times["within"],
-        rate=words.rate or number(block, f"{bus}.BitRate") or USUAL["BitRate"],
-        bits=CHARACTER_BITS.get(form) or number(block, f"{bus}.CharacterBits") or USUAL["CharacterBits"],
+        rate=words.rate or number(block, f"{bus}.BitRate") or USUAL_RATE,
+        bits=character(words.form).bits if words.form else bits or USUAL_BITS,
         ascii=words.ascii or bool(number(block, f"{bus}.Ascii")), scan=scan, reply=reply,
         max_scan=times["max_scan"] or number(block, f"{bus}.MaxScanMs") or 2 * scan,
         keeps=words.keeps_silence or bool(number(block, keeps)),
@@ -225,12 +225,11 @@ def _wrong_line(made: Line, words: Words) -> Iterator[str]:
     if not any(each.drive for each in made.units):
         yield "there is no drive on the line; name one, such as chf@1"
     mode = "ascii" if made.ascii else "rtu"
-    for name, serial in [(each.name, each.drive.serial) for each in made.units if each.drive]:
-        rates = [code.baud for code in serial.baud.codes] if serial.baud else []
-        if rates and made.rate not in rates:
-            yield f"{name} has no {made.rate} bit/s; its manual names {', '.join(map(str, sorted(rates)))}"
-        if mode not in serial.mode.modes:
+    for name, has in [(each.name, serial(each.drive)) for each in made.units if each.drive]:
+        if has.rates and made.rate not in has.rates:
+            yield f"{name} has no {made.rate} bit/s; its manual names {', '.join(map(str, sorted(has.rates)))}"
+        if mode not in has.modes:
             yield f"{name} speaks no {mode.upper()}"
-        parities = {_PARITY[code.parity] for code in serial.format.codes} if serial.format else set()
+        parities = {each.parity for each in has.characters}
         if words.form and parities and words.form[1].upper() not in parities:
             yield f"{name} has no parity {words.form[1].upper()}; its manual names {', '.join(sorted(parities))}"

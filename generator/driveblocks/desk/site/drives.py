@@ -18,7 +18,6 @@ from driveblocks.desk.port import Port
 from driveblocks.desk.run.drives import named, words
 from driveblocks.desk.site import adapter
 from driveblocks.desk.site.found import Way
-from driveblocks.desk.site.line import CHARACTER_BITS
 from driveblocks.desk.site.reader import LostError, One, Reader, StraysError, heard
 from driveblocks.desk.site.register import Row, rows, unread, value
 from driveblocks.desk.site.saved import Saved, Word, read, write
@@ -31,6 +30,7 @@ from driveblocks.maps.load import load
 from driveblocks.maps.model import Drive
 from driveblocks.maps.problem import MapError, Refused
 from driveblocks.maps.revision import revision
+from driveblocks.meaning.serial import character
 from driveblocks.show.layout import table
 from structured_text.visible import file_name
 
@@ -78,7 +78,7 @@ class Place:
         """Read a drive; `name`: the file of what was found before; how the line was. Raises Refused, LostError."""
         clock, screen = RealClock(), console.terminal()
         columns = TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn()
-        speech = Speech("ascii" if self.ascii else "rtu", 1_000_000 * CHARACTER_BITS[self.form.upper()] / self.rate)
+        speech = Speech("ascii" if self.ascii else "rtu", 1_000_000 * character(self.form).bits / self.rate)
         bars = Progress(*columns, console=screen, disable=not screen.is_terminal, transient=True)
         with self._opened(clock) as opened, bars as bar:
             task = bar.add_task(one.name, total=len(rows(one.drive)), completed=len(found))

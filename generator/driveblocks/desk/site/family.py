@@ -8,10 +8,10 @@ from typing import Literal
 from driveblocks.desk.master import Master, Reply
 from driveblocks.desk.site.register import rows
 from driveblocks.maps.form import Span, address_text
-from driveblocks.maps.model import Drive, Identity
+from driveblocks.maps.model import Drive
 from driveblocks.maps.plan import dialect, plan, read_request
 from driveblocks.maps.polls import Poll, identity_read, polls
-from driveblocks.simulator.pattern import of_condition
+from driveblocks.meaning.status import status
 from driveblocks.simulator.refusal import codes
 
 SETTINGS = 5
@@ -53,8 +53,8 @@ class Judgement:
 def judge(ask: Ask, drive: Drive, unit: int, others: Mapping[str, Drive]) -> Judgement:
     """Weigh the replies of a unit that has answered. Raises what `ask` raises."""
     read, found = identity_read(drive), Judgement()
-    if read is not None and drive.identity is not None:
-        return _identified(ask, drive, unit, drive.identity, read)
+    if read is not None:
+        return _identified(ask, drive, unit, read)
     every = [(each, _surely(ask, drive, _request(unit, drive, each))) for each in polls(drive)]
     for each, reply in every:
         if not reply.words and (each.fast or not any(one.words for _, one in every)):
@@ -103,11 +103,11 @@ def _what(poll: Poll) -> str:
     return f"{count} from {address_text(poll.address)}"
 
 
-def _identified(ask: Ask, drive: Drive, unit: int, identity: Identity, read: Poll) -> Judgement:
+def _identified(ask: Ask, drive: Drive, unit: int, read: Poll) -> Judgement:
     found, reply = Judgement("identity"), ask(drive, _request(unit, drive, read))
     if not reply.words:
         return found.against(f"unit {unit} does not give the identity of {drive.prefix}", reply)
-    for pattern in map(of_condition, identity.all):
+    for pattern in status(drive).identity.patterns:
         word = reply.words[pattern.register - read.address]
         if not pattern.holds(word):
             return found.against(

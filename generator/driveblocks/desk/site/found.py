@@ -7,7 +7,7 @@ from rich.console import RenderableType
 
 from driveblocks.desk.exchange import Quality
 from driveblocks.desk.master import Master
-from driveblocks.desk.site.line import CHARACTER_BITS
+from driveblocks.meaning.serial import character
 
 Trouble = Literal[
     "silent", "half", "echo", "damaged", "family", "identity", "two", "foreign", "noise", "slow", "refused", "lost",
@@ -29,7 +29,7 @@ class Way:
     @property
     def character_us(self) -> float:
         """Time of a character on the wire."""
-        return 1_000_000 * CHARACTER_BITS[self.form] / self.rate
+        return 1_000_000 * character(self.form).bits / self.rate
 
     def __str__(self) -> str:
         """For a person."""

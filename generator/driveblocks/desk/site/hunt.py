@@ -10,6 +10,7 @@ from driveblocks.desk.site.talk import LOOK, Talk, ended
 from driveblocks.maps.form import Span
 from driveblocks.maps.model import Drive
 from driveblocks.maps.polls import identity_read, polls
+from driveblocks.meaning.serial import serial
 from driveblocks.modbus.layout import Dialect
 from driveblocks.modbus.scan import pieces
 
@@ -87,14 +88,11 @@ def _decodes(heard: bytes) -> bool:
 
 def ways(drive: Drive, rate: int | None = None, form: str | None = None, mode: str | None = None) -> list[Way]:
     """Rates, formats and modes of a map, the factory's first; those that a person names are the only ones."""
-    serial = drive.serial
-    named = serial.baud.codes if serial.baud else ()
-    rates = [
-        each.baud for each in sorted(named, key=lambda one: serial.baud is None or one.code != serial.baud.default)
-    ]
-    rates = [*rates[:1], *(each for each in (9600, 19200) if each in rates[1:]), *rates[1:]] or [9600, 19200, *RATES]
-    modes = sorted(serial.mode.modes, key=lambda one: one != "rtu")
-    forms = _forms(drive)
+    named = serial(drive).rates
+    rates = [*named[:1], *(each for each in (9600, 19200) if each in named[1:]), *named[1:]] or [9600, 19200, *RATES]
+    modes = sorted(serial(drive).modes, key=lambda one: one != "rtu")
+    forms = [one.form for one in serial(drive).characters if one.parity == "N" or one.stops == 1]
+    forms = forms or ["8N1", "8E1", "8O1", "8N2"]
     found = [
         Way(each, shape, kind)
         for kind in modes
@@ -105,26 +103,12 @@ def ways(drive: Drive, rate: int | None = None, form: str | None = None, mode: s
     return list(dict.fromkeys(found)) or [Way(rate or 9600, form or "8N1")]
 
 
-def _forms(drive: Drive) -> list[str]:
-    chosen = drive.serial.format
-    if chosen is None or not chosen.codes:
-        return ["8N1", "8E1", "8O1", "8N2"]
-    found = []
-    for code in sorted(chosen.codes, key=lambda one: one.code != chosen.default):
-        letter = {"none": "N", "even": "E", "odd": "O"}[code.parity]
-        found += [f"{code.data_bits or 8}{letter}{stops}" for stops in ((code.stop_bits,) if code.stop_bits else (1,))]
-    return list(dict.fromkeys(each for each in found if each[1:] not in ("E2", "O2")))
-
-
 def units(drive: Drive, unit: int | None = None) -> list[int]:
     """Addresses, the factory's and the usual ones first."""
-    serial = drive.serial.unit
     if unit is not None:
         return [unit]
-    first = [
-        each for each in (serial.default, 1, 2, 3) if each is not None and serial.min <= each <= serial.max and each
-    ]
-    return list(dict.fromkeys([*first, *range(max(1, serial.min), serial.max + 1)]))
+    every = range(max(1, serial(drive).lowest), serial(drive).highest + 1)
+    return list(dict.fromkeys([*(each for each in (serial(drive).factory, 1, 2, 3) if each in every), *every]))
 
 
 def find(talk: Talk, every: list[Way], addresses: list[int], asker: Asker, found: Found) -> Talk:

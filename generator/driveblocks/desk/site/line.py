@@ -6,6 +6,7 @@ from math import ceil
 
 from driveblocks.maps.model import Drive
 from driveblocks.maps.polls import REPLY, REQUEST, WORD, Poll, schedule
+from driveblocks.meaning.serial import serial
 from structured_text.engines.embedded import EmbeddedInstance, EmbeddedLibrary
 
 RATES = (1200, 2400, 4800, 9600, 19200, 38400, 57600, 115200)
@@ -19,7 +20,6 @@ PINS = ("CommandRetries", "OfflineMs")
 """... and of its own pins, beside those of `Line`."""
 LEARNED_AFTER = 20
 """Replies after which a block knows its drive's turn-round."""
-CHARACTER_BITS = {"8N1": 10, "8E1": 11, "8O1": 11, "8N2": 11, "7E1": 10, "7O1": 10, "7N2": 10}
 BROKEN = {
     "stops": "all stops are sent within {} ms",
     "status": "every status stays within its StaleMs",
@@ -88,8 +88,8 @@ class Line:
 
     def rates(self) -> tuple[int, ...]:
         """Bit rates to be tried: the present one, and those that all manuals on the line name."""
-        lists = [each.drive.serial.baud for each in self.units if each.drive]
-        named = [{code.baud for code in each.codes} for each in lists if each and each.codes]
+        lists = [serial(each.drive).rates for each in self.units if each.drive]
+        named = [set(each) for each in lists if each]
         return tuple(sorted({*(set.intersection(*named) if named else RATES), self.rate}))
 
 

@@ -17,6 +17,7 @@ from driveblocks.maps.model import Drive
 from driveblocks.maps.pair import whole
 from driveblocks.maps.plan import most, read_request
 from driveblocks.maps.polls import identity_read, polls
+from driveblocks.meaning.serial import serial
 from driveblocks.simulator.refusal import codes
 
 PAUSE_US = 500_000
@@ -79,12 +80,9 @@ class Reader:
 
     def __init__(self, port: Port, clock: Clock, one: One, speech: Speech, patience_us: int) -> None:
         """On a line that nobody else speaks on."""
-        told = one.drive.serial.silence
-        silence = int(1000 * told.milliseconds) if told and told.milliseconds else 0
         self._clock, self._drive, self._unit = clock, one.drive, one.unit
-        self.master = Master(
-            Reads(port), clock, replace(speech, silence_us=silence), Exchanges({}, one.drive, own=True)
-        )
+        said, silence_us = Exchanges({}, one.drive, own=True), int(1000 * serial(one.drive).silence_ms)
+        self.master = Master(Reads(port), clock, replace(speech, silence_us=silence_us), said)
         self._most = most(one.drive, speech.mode).read
         self._busy = codes(one.drive)["busy"]
         self._patience_us = patience_us

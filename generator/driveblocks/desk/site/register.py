@@ -8,7 +8,7 @@ from driveblocks.maps.form import Span, address_text
 from driveblocks.maps.model import Drive, Register
 from driveblocks.maps.pair import is_first, number_of, whole
 from driveblocks.maps.plan import group
-from driveblocks.simulator.pattern import of_condition
+from driveblocks.meaning.quantity import of_row
 
 
 @dataclass(frozen=True)
@@ -92,9 +92,8 @@ def value(row: Row, word: int, words: Mapping[int, int]) -> tuple[str, str]:
     named = next((each.name for each in one.values if each.value == number), None)
     if named is not None:
         return f"{number} {named}", ""
-    scale = one.scale
-    for when, factor in scale.choices if scale else ():
-        pattern = of_condition(when) if when else None
-        if pattern is None or (pattern.register in words and pattern.holds(words[pattern.register])):
-            return f"{number * factor:f}", one.unit or ""
+    for factor in of_row(one, row.address).factors:
+        when = factor.when
+        if when is None or (when.register in words and when.holds(words[when.register])):
+            return f"{number * factor.value:f}", one.unit or ""
     return str(number), f"{one.unit} ?" if one.unit else ""

@@ -11,6 +11,8 @@ from driveblocks.desk.site.family import judge
 from driveblocks.desk.site.found import Asker, Fault, Found, Line, Trouble, Way
 from driveblocks.desk.site.talk import LOOK, EndedError, Talk, ended
 from driveblocks.maps.model import Drive
+from driveblocks.meaning.serial import serial
+from driveblocks.meaning.status import status
 
 STEPS = ("quiet", "find", "keypad", "measure", "gaps")
 SKIPPABLE = ("plate", "keypad", "measure", "gaps")
@@ -108,7 +110,7 @@ def _recognise(talk: Talk, found: Found, others: Mapping[str, Drive]) -> None:
     found.evidence = judged.evidence
     if judged.family == "other":
         talk.steady(hunt.first_read(talk.drive))  # a unit that has gone is of no other family
-        raise ended("identity" if talk.drive.identity else "family", judged.why)
+        raise ended("identity" if status(talk.drive).identity.patterns else "family", judged.why)
     if judged.refused:
         said = f"unit {talk.unit} refuses what the map lists: {judged.refused}"
         found.faults.append(Fault("refused", said, LOOK["refused"]))
@@ -117,7 +119,7 @@ def _recognise(talk: Talk, found: Found, others: Mapping[str, Drive]) -> None:
 
 def _found(line: Line, asker: Asker, wish: Wish, found: Found) -> Talk:
     """Steps 1 and 2. Raises EndedError."""
-    every, unit = wish.ways(), wish.drive.serial.unit
+    every, unit = wish.ways(), serial(wish.drive)
     if unit.silent:
         asker.say(f"As delivered this drive answers nobody: set {unit.setting} to an address first.")
     asker.say("Step 1: listening for 60 s; nothing is sent.")

@@ -8,6 +8,7 @@ from driveblocks.desk.site.found import Fault, Line, Trouble, Way
 from driveblocks.maps.form import Span
 from driveblocks.maps.model import Drive
 from driveblocks.maps.plan import read_request
+from driveblocks.meaning.serial import serial
 from driveblocks.simulator.refusal import codes
 
 LOOK = {
@@ -86,7 +87,7 @@ class Talk:
     @property
     def framings(self) -> list[Way]:
         """The way, and with it those of the drive's other framings."""
-        modes = self.drive.serial.mode.modes
+        modes = serial(self.drive).modes
         return list(dict.fromkeys((self.way, *(replace(self.way, mode=mode) for mode in modes))))
 
     def steady(self, span: Span) -> Reply:

@@ -5,6 +5,8 @@ from functools import cached_property
 
 from driveblocks.maps.model import Drive
 from driveblocks.maps.polls import meaning_words, polls
+from driveblocks.meaning.measure import measures
+from driveblocks.meaning.status import status
 from driveblocks.simulator.move import MOTIONS
 from driveblocks.testing.scenes.drive import ORDERS
 
@@ -26,11 +28,11 @@ class Ability:
 
     def shows(self, what: str) -> bool:
         """Whether its status shows something."""
-        return any(one.shows == what for one in self.drive.operation.status)
+        return bool(status(self.drive).shows(what))
 
     def measures(self, what: str) -> bool:
         """Whether it measures something."""
-        return any(one.shows == what for one in self.drive.operation.measures)
+        return any(one.name == what for one in measures(self.drive))
 
     def kind(self, wanted: str) -> int:
         """Number of the stop that is sent where one is wanted: the drive's own, else its stop."""

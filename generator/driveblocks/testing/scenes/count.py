@@ -5,6 +5,7 @@ from dataclasses import replace
 
 from driveblocks.maps.model import Drive
 from driveblocks.maps.polls import polls
+from driveblocks.meaning.serial import serial
 from driveblocks.testing.scenes.ability import Ability
 from driveblocks.testing.scenes.motor import POWER, RUNNING, STANDS, run
 from driveblocks.testing.scenes.promise import Promise
@@ -70,10 +71,9 @@ def _late_scans() -> Iterator[Step]:
 
 def _promises(can: Ability) -> Iterator[Step]:
     drive = can.drive
-    silence = drive.serial.silence
     usual = Promise(
-        ascii="rtu" not in drive.serial.mode.modes,
-        silence=int(silence.milliseconds or 0) if silence else 0,
+        ascii=serial(drive).ascii,
+        silence=int(serial(drive).silence_ms),
         by_one=any(function.code == 6 for function in drive.functions),
     )
     worst = 0
@@ -98,13 +98,13 @@ def _lines(can: Ability, usual: Promise) -> Iterator[tuple[str, Shows, Promise]]
     pins = {"Pins.BitRate": 38400, "Pins.KeepsSilence": True, "Pins.MaxScanMs": 50, "Pins.OfflineMs": 3000}
     pins |= {"Pins.Settings.TurnRoundMs": 80, "Pins.Settings.LongestMs": 400}
     yield "a slow drive", pins, at
-    if len(can.drive.serial.mode.modes) > 1:
+    if len(serial(can.drive).modes) > 1:
         at = replace(at, ascii=True, offline=1000)
         yield "in ASCII", {"Pins.Ascii": True, "Pins.OfflineMs": 0}, at
         at = replace(at, ascii=False)
         yield "in RTU", {"Pins.Ascii": False}, at
-    unit = can.drive.serial.unit.min
-    if can.drive.serial.unit.max > unit:
+    unit = serial(can.drive).lowest
+    if serial(can.drive).highest > unit:
         pins = {"Pins.OtherOn": True, "Pins.OtherUnit": unit + 1, "Pins.OfflineMs": 1000}
         pins |= {"Pins.Settings.TurnRoundMs": 30, "Pins.Settings.LongestMs": 60}
         yield "two drives", pins, replace(at, drives=2, offline=1000, turn_round=30, longest=60)

@@ -4,6 +4,7 @@ from collections.abc import Iterator
 
 from driveblocks.maps.model import Drive
 from driveblocks.maps.plan import most
+from driveblocks.meaning.serial import serial
 from driveblocks.modbus.layout import Dialect
 from driveblocks.reference.permission import readable
 from driveblocks.testing.code import NUMBERS
@@ -51,7 +52,7 @@ STALE_MS = 800
 def scripts(drive: Drive, stem: str) -> Iterator[Script]:
     """One program; none where the line has but one unit address, or the drive fewer registers than the meter."""
     first = _first(drive)
-    if first is not None and drive.serial.unit.max > drive.serial.unit.min:
+    if first is not None and serial(drive).highest > serial(drive).lowest:
         yield script(drive, stem, "MotorMeter", "a meter beside a motor", scenes(Ability(drive), first), MORE)
 
 
@@ -73,7 +74,7 @@ def _first(drive: Drive) -> int | None:
     """The first of three registers in a row that a read may ask for."""
     count, free = len(HELD), readable(drive)
     runs = (each for each in sorted(free) if all(each + more in free for more in range(count)))
-    return next(runs, None) if all(most(drive, mode).read >= count for mode in drive.serial.mode.modes) else None
+    return next(runs, None) if all(most(drive, mode).read >= count for mode in serial(drive).modes) else None
 
 
 def _code(drive: Drive) -> int:
@@ -95,7 +96,7 @@ GOOD: Shows = {"Meter.Valid": True, "Meter.CommOk": True, "Meter.ErrorID": 0, "M
 
 
 def _begin(drive: Drive, first: int) -> Iterator[Step]:
-    unit = drive.serial.unit.min + 1
+    unit = serial(drive).lowest + 1
     pins: Shows = {
         ".MeterUnit": unit, ".Code": _code(drive), ".Place": word(first), ".Count": len(HELD),
         ".Bytes": False, ".Pairs": False, ".Within": STALE_MS, ".Off": False, ".Writing": False,
@@ -130,7 +131,7 @@ def _orders() -> Iterator[Step]:
 
 
 def _senseless(drive: Drive, first: int) -> Iterator[Step]:
-    unit = drive.serial.unit.min + 1
+    unit = serial(drive).lowest + 1
     right: Shows = {
         ".MeterUnit": unit,
         ".Code": _code(drive),

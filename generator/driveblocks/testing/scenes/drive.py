@@ -8,14 +8,15 @@ from typing import Any
 import jinja2
 
 from driveblocks.maps.form import SPACES, Span, address_name, address_text, space_of, wire
-from driveblocks.maps.model import Condition, Drive, kept
+from driveblocks.maps.model import Drive, kept
 from driveblocks.maps.rivals import own_address
+from driveblocks.meaning.pattern import Pattern
+from driveblocks.meaning.status import registers, status
 from driveblocks.render.environment import strict
 from driveblocks.simulator.copies import RPM_OF_ONE_PAIR
 from driveblocks.simulator.habits import Habits
 from driveblocks.simulator.move import MOTIONS, STATE, STOPS, Move, Need
-from driveblocks.simulator.pattern import Pattern, of_condition
-from driveblocks.simulator.plate import chosen
+from driveblocks.simulator.plate import chosen, own_maximum_word
 from driveblocks.simulator.table import Gauge, Table, table
 from structured_text.language.writing import byte, comment, word
 
@@ -116,26 +117,9 @@ def _places(drive: Drive, made: Table) -> dict[int, int]:
     words.setdefault(made.reference.register, 0)
     if made.reference.above is not None:
         words.setdefault(made.reference.above, 0)
-    for one in settled(drive):
-        pattern = of_condition(one)
+    for pattern in status(drive).settled:
         words[pattern.register] = words.get(pattern.register, 0) & ~pattern.mask | pattern.value
-    if drive.operation.own_maximum:
-        words[drive.operation.own_maximum.register] = _own_maximum(drive)
-    return words
-
-
-def settled(drive: Drive) -> tuple[Condition, ...]:
-    """What registers of settings and identity hold where everything is as it should be."""
-    operation = drive.operation
-    who = drive.identity.all if drive.identity else ()
-    commanded = operation.commanded_by.all if operation.commanded_by else ()
-    return (*operation.reference.verify, *commanded, *who)
-
-
-def _own_maximum(drive: Drive) -> int:
-    own = drive.operation.own_maximum
-    row = drive.register_at(own.register) if own else None
-    return round(MAXIMUM_HZ / float(row.scale.factor)) if row and row.scale else 0
+    return words | own_maximum_word(drive, MAXIMUM_HZ)
 
 
 def _reference(made: Table, at: dict[int, int]) -> Context:
@@ -317,17 +301,16 @@ def _chosen(drive: Drive) -> Iterator[tuple[int, str]]:
 
 def _mistaken(drive: Drive) -> Iterator[tuple[int, str]]:
     """What is otherwise than it should be, when the tests say so."""
-    for one in drive.operation.reference.verify:
-        pattern = of_condition(one)
+    for pattern in status(drive).verify:
         bit = pattern.mask & -pattern.mask
         yield pattern.register, f"IF Fate.WrongSetting THEN Value := Value XOR {word(bit)}; END_IF;"
 
 
 def _proof(drive: Drive) -> Context:
     """The registers that prove standstill, each with the bits of the others."""
-    registers = sorted({each.register for each in drive.operation.standstill.all})
-    every = (1 << len(registers)) - 1
-    proof = [(mark(register), word(every & ~(1 << place))) for place, register in enumerate(registers)]
+    read = sorted(registers(status(drive).standstill.patterns))
+    every = (1 << len(read)) - 1
+    proof = [(mark(register), word(every & ~(1 << place))) for place, register in enumerate(read)]
     return {"proof": proof, "unproved": word(every)}
 
 

@@ -3,16 +3,19 @@
 In the form of part.yaml; what they must show comes from the map alone.
 """
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from typing import Any
 
 from driveblocks.maps.form import is_bit
 from driveblocks.maps.model import Command, Drive
-from driveblocks.maps.polls import fast_words, other_words, polls, schedule, slow_words, speed_words, young_words
+from driveblocks.maps.polls import fast_words, other_words, polls, schedule, slow_words
+from driveblocks.meaning.pattern import of_write
+from driveblocks.meaning.reference import reference
+from driveblocks.meaning.roles import roles
+from driveblocks.meaning.status import status
 from driveblocks.modbus.layout import COIL_ON
 from driveblocks.reference.naming import word_pin
 from driveblocks.simulator.move import MOTIONS
-from driveblocks.simulator.pattern import of_write
 from driveblocks.testing.scenes.drive import KINDS, ORDERS
 from driveblocks.testing.scenes.scene import Shows
 from structured_text.language.writing import word
@@ -156,13 +159,13 @@ class _Known:
         self.proved = (self.proved or self.speed) and self._all("proof")
         self.settled = self.settled or self._all("verify")
         found: Shows = {
-            "StatusAgeMs": max(self.ages[each] for each in roles["status"]),
-            "MeasuresAgeMs": max((self.ages[each] for each in roles["measures"]), default=NEVER_MS),
+            "StatusAgeMs": max(self.ages[each] for each in roles["fast"]),
+            "MeasuresAgeMs": max((self.ages[each] for each in roles["measure"]), default=NEVER_MS),
             "FaultAgeMs": max((self.ages[each] for each in roles["fault"]), default=0),
             "ProofRead": self.proved, "SpeedRead": self.speed, "FaultRead": self._all("fault"),
             "SettingsRead": self.settled, "Doubted": self.doubted,
         }  # fmt: skip
-        more = {"master": "MasterRead", "states": "StatesRead", "verify": "MeaningRead"}
+        more = {"by_bus": "MasterRead", "state": "StatesRead", "verify": "MeaningRead"}
         found |= {name: self._all(role) for role, name in more.items() if roles[role]}
         return found | {f"Young{each + 1}": self.ages[each] <= STALE_MS for each in sorted(roles["young"])}
 
@@ -183,29 +186,8 @@ class _Known:
 
 
 def _reads_of(drive: Drive) -> dict[str, set[int]]:
-    """What each read is needed for."""
-    operation, faults = drive.operation, drive.faults
-    shown = [each.register for one in operation.status if one.shows == "fault" for each in one.any]
-    if faults.present is not None:
-        shown.append(faults.present)
-    elif faults.bits is not None:
-        shown += range(faults.bits.first, faults.bits.last + 1)
-    own = [operation.own_maximum.register] if operation.own_maximum else []
-    bus = operation.commanded_by.all if operation.commanded_by else ()
-    registers: dict[str, Iterable[int]] = {
-        "status": fast_words(drive),
-        "measures": [each.register for each in operation.measures],
-        "young": young_words(drive),
-        "fault": shown,
-        "proof": [each.register for each in operation.standstill.all],
-        "speed": speed_words(drive),
-        "verify": [*(each.register for each in operation.reference.verify), *own],
-        "master": [each.register for each in bus],
-        "states": [each.register for each in operation.states],
-    }
-    spans = (range(each.address, each.address + each.words) for each in polls(drive))
-    at = {address: number for number, span in enumerate(spans) for address in span}
-    return {role: {at[each] for each in found} for role, found in registers.items()}
+    """What each read is needed for; here they count from 0."""
+    return {role: {each - 1 for each in numbers} for role, numbers in vars(roles(drive)).items()}
 
 
 # ---------------------------------------------------------------- what is written
@@ -225,11 +207,10 @@ def _orders(drive: Drive) -> Iterator[Row]:
             shown = _write(one, step, several=several) | _awaited(drive, one, step)
             yield [words, {"Order": numbers[does]} | number, shown]
             yield none
-    reference = word(drive.operation.reference.register)
-    shows: Shows = {f"{_ASK}.Address": reference, f"{_ASK}.Words[0]": word(0x1234), "Moves": False}
-    row = drive.register_at(drive.operation.reference.register, "w")
-    if row is not None and row.words:
-        low = row.order == "low_first"
+    speed = reference(drive)
+    shows: Shows = {f"{_ASK}.Address": word(speed.register), f"{_ASK}.Words[0]": word(0x1234), "Moves": False}
+    if speed.pair:
+        low = speed.pair == "low_first"
         shows |= {f"{_ASK}.Words[0]": word(0x1234 if low else 0), f"{_ASK}.Words[1]": word(0 if low else 0x1234)}
         shows |= {f"{_ASK}.Quantity": 2}
     yield ["the reference", {"Order": 10, "ReferenceWord": 0x1234}, shows]
@@ -244,10 +225,10 @@ def _awaited(drive: Drive, one: Command, step: int) -> Shows:
     if not any(step.until for command in drive.operation.commands for step in command.first):
         return {}
     until = one.first[step].until if step < len(one.first) else None
-    state = next((each for each in drive.operation.states if each.name == until), None)
+    state = next((each.pattern for each in status(drive).states if each.name == until), None)
     if state is None:
         return {"Awaits": False}
-    return {"Awaits": True, "StateMask": word(state.mask or 0xFFFF), "StateWord": word(state.equals)}
+    return {"Awaits": True, "StateMask": word(state.mask), "StateWord": word(state.value)}
 
 
 def _write(one: Command, step: int, *, several: bool) -> Shows:

@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 
 from driveblocks.maps.model import Drive
+from driveblocks.meaning.serial import serial
 from driveblocks.testing.scenes.ability import Ability
 from driveblocks.testing.scenes.motor import NOTHING_STARTED, POWER, RUNNING, STANDS, TOLD, run, stand
 from driveblocks.testing.scenes.scene import More, Scene, Shows, Step, scene, script, why
@@ -17,8 +18,8 @@ def scripts(drive: Drive, stem: str) -> Iterator[Script]:
 
 
 def lines(can: Ability) -> Iterator[Scene]:
-    unit = can.drive.serial.unit.min
-    if can.drive.serial.unit.max > unit:
+    unit = serial(can.drive).lowest
+    if serial(can.drive).highest > unit:
         yield scene("StopAll stops two motors", POWER, run(), *_stop_all(unit + 1))
         yield scene("one dead drive, and the other", POWER, run(), *_one_dead(unit + 1))
     yield scene("StopAll stops a motor whose block is not called", POWER, run(), *_stop_uncalled())
@@ -33,7 +34,7 @@ def lines(can: Ability) -> Iterator[Scene]:
     yield scene("no time passes", POWER, run(), *_time())
     yield scene("a stop that is refused", POWER, run(), *_refused_stop())
     yield scene("a slow line that keeps the silence itself", *_slow())
-    if len(can.drive.serial.mode.modes) > 1:
+    if len(serial(can.drive).modes) > 1:
         yield scene("MODBUS ASCII", *_ascii())
     yield scene("another master", POWER, *_foreign())
     yield scene("a scan that is too long", POWER, *_late_scan())  # the last: it is reported for ten seconds

@@ -5,6 +5,7 @@ from collections.abc import Iterator
 from driveblocks.maps.model import Drive
 from driveblocks.maps.pair import whole
 from driveblocks.maps.trust import second_hand
+from driveblocks.meaning.serial import serial
 from driveblocks.testing.scenes.ability import Ability
 from driveblocks.testing.scenes.drive import mark
 from driveblocks.testing.scenes.scene import Scene, Shows, Step, scene, script, why
@@ -847,7 +848,7 @@ def _spoilt() -> Iterator[Step]:
 
 
 def _address(can: Ability) -> Iterator[Step]:
-    first = can.drive.serial.unit.min
+    first = serial(can.drive).lowest
     there: Shows = {"Address": first + 1}
     yield Step("not while it runs", there, ms=500, shows=RUNNING)
     yield Step("it is stopped before", {"RunForward": False}, "Seen.Milli = 0", 3000, {"Seen.Driven": False})
@@ -855,7 +856,7 @@ def _address(can: Ability) -> Iterator[Step]:
     yield Step(
         "the drive has this address now", {"Fate.Unit": first + 1}, "Motor.Ready", 4000, STANDS | {"Seen.Starts": 1}
     )
-    last = can.drive.serial.unit.max
+    last = serial(can.drive).highest
     if last < 255:
         yield Step("one that no drive has", {"Address": last + 1}, why("MISSING"), 3000, {"Ready": False})
     served = {f"Slots[0].UnitAddress = {last}": True}

@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 
 from driveblocks.maps.model import Drive
+from driveblocks.meaning.serial import serial
 from driveblocks.reference.framing import ascii_encode, rtu_seal
 from driveblocks.testing.scenes.ability import Ability
 from driveblocks.testing.scenes.drive import busy, simulated
@@ -78,7 +79,7 @@ def scripts(drive: Drive, stem: str) -> Iterator[Script]:
 
 def scenes(can: Ability) -> Iterator[Scene]:
     drive = can.drive
-    modes = drive.serial.mode.modes
+    modes = serial(drive).modes
     for mode in modes:
         sets: Shows = {"Pins.Ascii": mode == "ascii", "Pins.ForeignMost": 20}
         yield scene(f"frames of another master, {mode}", Step("settings", sets, ms=20), START[1], *_frames(mode))
@@ -91,7 +92,7 @@ def scenes(can: Ability) -> Iterator[Scene]:
     if simulated(drive).dialect.two_byte_count:
         yield scene("replies with a byte count of two bytes", START, run(), *_wide())
     yield scene("a late reply after a stop", START, run(), *_late_stop())
-    if can.drive.serial.unit.max > can.drive.serial.unit.min:
+    if serial(can.drive).highest > serial(can.drive).lowest:
         yield scene("late replies of one of two drives", START, *_late_other(can))
     yield scene("an echo that comes and goes", START, *_echo())
     if busy(drive):
@@ -164,7 +165,7 @@ def _other_write(drive: Drive, mode: str) -> Iterator[Step]:
     """It has the form of a refusal, and another address: the reply still comes."""
     late: Shows = {"Fate.HoldMs": 3 * SCAN_MS, "Pins.Settings.TurnRoundMs": 120, "Pins.Settings.LongestMs": 150}
     yield Step("replies take some scans", late | {".Mark": "Bus.Timeouts"}, ms=300)
-    echo = _characters(mode, f"{drive.serial.unit.min:02X} 06 12 34 00 05")
+    echo = _characters(mode, f"{serial(drive).lowest:02X} 06 12 34 00 05")
     for turn in range(3):
         yield Step(f"it comes, {turn}", {}, "TxCount > 0", 500)
         yield Step("before the reply", _comes(echo), ms=(4 + turn) * SCAN_MS, shows={"CommOk": True})
@@ -193,7 +194,7 @@ def _late_stop() -> Iterator[Step]:
 
 def _late_other(can: Ability) -> Iterator[Step]:
     """They come when the other drive has been asked already, and are nobody's but its own."""
-    other: Shows = {"Pins.OtherOn": True, "Pins.OtherUnit": can.drive.serial.unit.min + 1}
+    other: Shows = {"Pins.OtherOn": True, "Pins.OtherUnit": serial(can.drive).lowest + 1}
     yield Step("two drives", other, "Other.Ready", 4000, {"Bus.ForeignFrames": 0})
     late = 80 if can.drive.serial.silence else 60  # a silence of the drive's own lengthens what is in time
     yield Step(
@@ -262,7 +263,7 @@ def _varied() -> Iterator[Step]:
 
 
 def _slots(can: Ability) -> Iterator[Step]:
-    unit = can.drive.serial.unit.min
+    unit = serial(can.drive).lowest
     yield Step("none", ms=20, shows={"Bus.ErrorSlot": 0, "Bus.ErrorID": 0})
     yield Step("two with one address", {"Pins.OtherOn": True, "Pins.OtherUnit": unit}, "Bus.ErrorID = 55", 1000, {
         "Bus.ErrorSlot": 1, "Other.Ready": False,

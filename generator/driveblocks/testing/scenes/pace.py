@@ -4,6 +4,7 @@ from collections.abc import Iterator
 
 from driveblocks.maps.model import Drive
 from driveblocks.maps.rivals import first_reads
+from driveblocks.meaning.serial import serial
 from driveblocks.testing.scenes.ability import Ability
 from driveblocks.testing.scenes.motor import NOTHING_STARTED, POWER, RUNNING, STANDS, run
 from driveblocks.testing.scenes.scene import More, Scene, Shows, Step, scene, script, why
@@ -60,7 +61,7 @@ def scenes(can: Ability) -> Iterator[Scene]:
     yield scene("how often a dead drive is read", POWER, *_probes(can))
     yield scene("silence after power-up", *_boots())
     yield scene("silence without supply", POWER, run(), *_no_supply())
-    if can.drive.serial.unit.max > can.drive.serial.unit.min:
+    if serial(can.drive).highest > serial(can.drive).lowest:
         yield scene("what a dead drive costs the others", POWER, *_costs(can))
         yield scene("two dead drives", POWER, run(), *_two_dead(can))
         yield scene("one silent drive of two", POWER, run(), *_one_silent(can))
@@ -195,7 +196,7 @@ def _no_supply() -> Iterator[Step]:
 
 
 def _costs(can: Ability) -> Iterator[Step]:
-    other: Shows = {"Pins.OtherOn": True, "Pins.OtherUnit": can.drive.serial.unit.min + 1}
+    other: Shows = {"Pins.OtherOn": True, "Pins.OtherUnit": serial(can.drive).lowest + 1}
     timeouts: Shows = {".Mark": "Bus.Timeouts"}
     yield Step("two drives", other | timeouts, "Other.Ready", 4000, {
         "Bus.OnlineCount": 2, "Bus.ForeignFrames": 0, "Bus.Timeouts": "Mark",
@@ -215,7 +216,7 @@ def _costs(can: Ability) -> Iterator[Step]:
 
 def _one_silent(can: Ability) -> Iterator[Step]:
     """Its stop is overdue after its attempts and its longest time."""
-    other: Shows = {"Pins.OtherOn": True, "Pins.OtherUnit": can.drive.serial.unit.min + 1}
+    other: Shows = {"Pins.OtherOn": True, "Pins.OtherUnit": serial(can.drive).lowest + 1}
     yield Step("two drives", other | {"Pins.Settings.LongestMs": 1500}, "Other.Ready", 4000)
     cut: Shows = {"Fate.Cut": True, "StopWithinMs": 20000}
     yield Step("one is cut off", cut, why("OFFLINE"), 6000, {"Other.CommOk": True, "StopOverdue": False})
@@ -232,7 +233,7 @@ def _flaps() -> Iterator[Step]:
 
 
 def _two_dead(can: Ability) -> Iterator[Step]:
-    other: Shows = {"Pins.OtherOn": True, "Pins.OtherUnit": can.drive.serial.unit.min + 1}
+    other: Shows = {"Pins.OtherOn": True, "Pins.OtherUnit": serial(can.drive).lowest + 1}
     yield Step("a second drive block", other, "Other.Ready", 4000)
     yield Step("both run", {"Pins.OtherRuns": True}, "OtherSeen.Milli >= 19800", 4000, RUNNING)
     yield Step("both cables are cut", {"Fate.Cut": True, "OtherFate.Cut": True}, "Bus.OnlineCount = 0", 4000, {

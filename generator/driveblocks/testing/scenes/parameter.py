@@ -3,10 +3,12 @@
 from collections.abc import Iterator
 
 from driveblocks.maps.model import Drive
+from driveblocks.meaning.measure import own_maximum
+from driveblocks.meaning.status import registers, status
 from driveblocks.reference.permission import Judge, Write, readable, writable
 from driveblocks.testing.code import NUMBERS
 from driveblocks.testing.scenes.ability import Ability
-from driveblocks.testing.scenes.drive import mark, settled, simulated
+from driveblocks.testing.scenes.drive import mark, simulated
 from driveblocks.testing.scenes.motor import NOTHING_STARTED, STANDS, run
 from driveblocks.testing.scenes.scene import More, Scene, Shows, Step, Value, scene, script, why
 from driveblocks.testing.script import SCAN_MS, Script
@@ -105,8 +107,8 @@ def place_of(drive: Drive) -> int | None:
 
 def meant(drive: Drive) -> frozenset[int]:
     """Registers whose words the drive block looks at."""
-    own = drive.operation.own_maximum
-    return frozenset(each.register for each in settled(drive)) | ({own.register} if own else frozenset())
+    own = own_maximum(drive)
+    return frozenset(registers(status(drive).settled)) | ({own.register} if own else frozenset())
 
 
 def idle() -> Step:

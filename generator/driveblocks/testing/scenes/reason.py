@@ -1,6 +1,7 @@
 """The numbers of the reasons, as published, by the names that scenes give them, and those that no scene reaches."""
 
 from driveblocks.maps.trust import second_hand
+from driveblocks.meaning.status import status
 from driveblocks.simulator.move import MOTIONS
 from driveblocks.testing.scenes.ability import Ability
 
@@ -24,7 +25,7 @@ def unreached(can: Ability, *, writes: bool) -> dict[str, str]:
         found["UNREAD"] = "the settings are read before the stop after power-up is confirmed"
     if not second_hand(can.drive):
         found["UNCHECKED"] = "the map was read off the manual"
-    if not can.drive.operation.reference.verify:
+    if not status(can.drive).verify:
         found["SETTING"] = "no setting of the drive that can be read gives the reference another meaning"
     if not can.shows("ready"):
         found["NOT_READY"] = "the drive does not show whether it is ready"

@@ -7,6 +7,7 @@ from typing import NamedTuple
 
 from driveblocks.maps.model import Drive
 from driveblocks.maps.revision import checked
+from driveblocks.meaning.serial import serial
 from driveblocks.simulator.habits import Habits
 from driveblocks.testing import bench
 from driveblocks.testing.scenes.ability import Ability
@@ -125,7 +126,7 @@ def script(  # noqa: PLR0913, PLR0917 - what the head of a program says, its sce
 
 def _stage(can: Ability, one: Scene, index: int, step: Step) -> Stage:
     first, last, absent = index == 1, index == len(one.steps), can.absent
-    items: list[Item] = [*_BEGIN, f"Fate.Unit := {can.drive.serial.unit.min};"] if first else []
+    items: list[Item] = [*_BEGIN, f"Fate.Unit := {serial(can.drive).lowest};"] if first else []
     items += statements(step.sets)
     until = step.until if can.measures("output_frequency") else step.until.replace("Motor.AtSpeed", _FAST)
     if step.until:
@@ -238,10 +239,10 @@ def _plant(drive: Drive, more: More) -> str:
         environment()
         .get_template("Plant.st.j2")
         .render(
-            unit=drive.serial.unit.min,
-            other_unit=drive.serial.unit.min + 1,
+            unit=serial(drive).lowest,
+            other_unit=serial(drive).lowest + 1,
             checked=checked(drive),
-            ascii=flag("rtu" not in drive.serial.mode.modes),
+            ascii=flag(serial(drive).ascii),
             scan=SCAN_MS,
             scales=[*((key, real(value)) for key, value in scales.items()), *pairs],
             other=more.other,

@@ -5,6 +5,7 @@ from collections.abc import Iterator, Mapping
 from driveblocks.maps.form import is_bit
 from driveblocks.maps.model import Command, Drive
 from driveblocks.maps.rivals import first_reads, refusals
+from driveblocks.meaning.serial import serial
 from driveblocks.reference.command import Commands
 from driveblocks.testing.scenes.ability import Ability
 from driveblocks.testing.scenes.drive import busy, mark
@@ -43,11 +44,11 @@ def scenes(drive: Drive) -> Iterator[Scene]:
 
 def known(drive: Drive) -> Shows:
     """What a slot holds of a family, whatever its motor does."""
-    form, silence = refusals(drive), drive.serial.silence
+    form = refusals(drive)
     stop, jog = _command(drive, "stop"), _command(drive, "jog_stop")
     found: Shows = {
-        "UnitAddress": drive.serial.unit.min, "StopWithinMs": 5000, "HasStop": True, "SupplyOff": False,
-        "SilenceMs": int(silence.milliseconds or 0) if silence else 0, "PollEveryMs": 0,
+        "UnitAddress": serial(drive).lowest, "StopWithinMs": 5000, "HasStop": True, "SupplyOff": False,
+        "SilenceMs": int(serial(drive).silence_ms), "PollEveryMs": 0,
         "ExceptionAdd": form.added, "ErrorFunction": form.function or 0,
         "ErrorAddress": word(form.address or 0), "BusyReason": busy(drive), "TwoByteCount": form.two_byte_count,
         "Ask[0].FunctionCode": _write(drive, stop.register), "Ask[0].Quantity": 1,

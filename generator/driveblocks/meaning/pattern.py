@@ -1,8 +1,9 @@
 """Bits of a register that must have, or get, a value."""
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 
-from driveblocks.maps.form import Span
+from driveblocks.maps.form import Span, address_text, bits_text, masked_text
 from driveblocks.maps.model import Command, Condition, State, Step
 
 WORD = 0xFFFF
@@ -16,6 +17,15 @@ class Pattern:
     mask: int
     value: int
     differs: bool = False
+
+    def __str__(self) -> str:
+        """For a person: 000FH bit 0 = 0."""
+        is_, first = "<>" if self.differs else "=", (self.mask & -self.mask).bit_length() - 1
+        bits = Span(first, self.mask.bit_length() - 1)
+        if self.mask != bits_of([bits]):
+            return masked_text(self.register, self.mask, self.value, is_)
+        which = "" if self.mask == WORD else f" bit{'s' * (len(bits) > 1)} {bits_text(bits)}"
+        return f"{address_text(self.register)}{which} {is_} {self.value >> first}"
 
     def holds(self, word: int) -> bool:
         """Whether a word of the register has the value."""
@@ -38,7 +48,7 @@ def of_condition(condition: Condition | State) -> Pattern:
     bit = condition.bit if isinstance(condition, Condition) else None
     differs = isinstance(condition, Condition) and bool(condition.differs)
     if bit is not None:
-        return Pattern(condition.register, _mask((bit,)), condition.equals << bit.first, differs)
+        return Pattern(condition.register, bits_of([bit]), condition.equals << bit.first, differs)
     return Pattern(condition.register, WORD if condition.mask is None else condition.mask, condition.equals, differs)
 
 
@@ -46,8 +56,9 @@ def of_write(write: Command | Step) -> Pattern:
     """What is in its register after a command or a step; bits that it keeps do not count."""
     if write.value is not None:
         return Pattern(write.register, WORD, write.value & WORD)
-    return Pattern(write.register, _mask((*write.set, *write.clear)), _mask(write.set))
+    return Pattern(write.register, bits_of((*write.set, *write.clear)), bits_of(write.set))
 
 
-def _mask(bits: tuple[Span, ...]) -> int:
-    return sum({1 << bit for span in bits for bit in span})
+def bits_of(spans: Iterable[Span]) -> int:
+    """The word in which the bits of some spans are set."""
+    return sum(1 << bit for bit in {bit for span in spans for bit in span})

@@ -1,0 +1,39 @@
+"""Nothing that the room of meanings hands out holds a piece of a map: what it gives is plain data of its own."""
+
+from collections.abc import Iterator
+from dataclasses import fields, is_dataclass
+from typing import Any
+
+import pytest
+from tests import shipped
+
+from driveblocks.meaning.measure import measures, own_maximum
+from driveblocks.meaning.reference import reference
+from driveblocks.meaning.roles import roles
+from driveblocks.meaning.serial import serial
+from driveblocks.meaning.status import status
+
+MEANINGS = (serial, status, roles, measures, own_maximum, reference)
+
+
+def held(value: Any, path: str) -> Iterator[tuple[str, Any]]:
+    """Everything that is reached from a value by fields, entries and keys."""
+    yield path, value
+    if isinstance(value, dict):
+        for key, each in value.items():
+            yield from held(each, f"{path}[{key}]")
+    elif isinstance(value, (tuple, list, set, frozenset)):
+        for at, each in enumerate(value):
+            yield from held(each, f"{path}[{at}]")
+    elif is_dataclass(value):
+        for field in fields(value):
+            yield from held(getattr(value, field.name), f"{path}.{field.name}")
+
+
+@pytest.mark.parametrize("prefix", shipped.drives())
+def test_what_is_handed_out_is_plain_data_that_nothing_changes(prefix: str) -> None:
+    drive = shipped.drives()[prefix]
+    for path, value in (each for meaning in MEANINGS for each in held(meaning(drive), meaning.__name__)):
+        assert not type(value).__module__.startswith("driveblocks.maps"), path
+        assert not isinstance(value, (list, set, dict)), path
+        assert not is_dataclass(value) or vars(type(value))["__dataclass_params__"].frozen, path
