@@ -137,8 +137,8 @@ def test_a_line_without_rate_and_format_has_those_of_its_block(program: Path) ->
     program.write_text(ONE.replace("BitRate := 19200, ", ""), encoding="utf-8")
     made = Setup(Options(program=program, fast=True, length="1s"), Keyboard(0))
     probe = made.probe
-    assert (made._line("BitRate"), made._line("CharacterBits")) == (probe.number("Bus.Line.Rate"), 10) == (9600, 10)
-    assert probe.number("Bus.Line.CharUs") == 10 * 1_000_000 // 9600 + 1
+    assert (made._line("BitRate"), made._line("CharacterBits")) == (probe.number("Bus.Line.Promise.Sums.Rate"), 10) == (9600, 10)
+    assert probe.number("Bus.Line.Promise.CharUs") == 10 * 1_000_000 // 9600 + 1
 
 
 def test_a_program_that_fails_ends_with_1_and_says_where(program: Path) -> None:

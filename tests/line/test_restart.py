@@ -13,7 +13,7 @@ def restart(bench: Bench, how: str) -> None:
     elif how == "late":
         bench.scan(took=1_500_000)
     else:
-        bench.block["Started"] = False
+        bench.block["Scan.Started"] = False
         bench.scan()
 
 
@@ -48,8 +48,8 @@ def test_what_waits_is_given_up_but_no_stop(how: str) -> None:
         "Next.Chosen",
         "OpenSlot",
         "Track[0].FirstSlot",
-        "Walk",
-        "WillTurn",
+        "Own.Walk",
+        "Own.WillTurn",
         "Index",
     ],
 )

@@ -67,6 +67,11 @@ NUMBERS = {
     "BARRED_DOUBLED": (6, "another slot has its unit address"),
     "BARRED_VERSION": (7, "its drive block is of another version"),
     "BARRED_LINE": (8, "a restart, or no time passes"),
+    # compartments of a slot
+    "BOX_STOP": (0, "compartment of the stop"),
+    "BOX_COMMAND": (1, "of the command"),
+    "BOX_PARAMETER": (2, "of the parameter"),
+    "BOX_POLL": (3, "of the poll"),
     # of two slots with one unit address
     "DOUBLED_NOT": (0, "no other slot has its unit address"),
     "DOUBLED_FIRST": (1, "another slot has taken its unit address"),

@@ -24,14 +24,15 @@ FRAME_BLOCKS = (
 )  # fmt: skip
 LINE_TYPES = (
     "MB_LineFrame", "MB_RxRing", "MB_Port", "MB_Words4", "MB_Words16", "MB_Ask", "MB_Asks", "MB_Answer", "MB_Answers",
-    "MB_Slot", "MB_StopTrack", "MB_StopCopy", "MB_Track", "MB_Given", "MB_Heard", "MB_Sums",
+    "MB_Slot", "MB_StopTrack", "MB_StopCopy", "MB_Track", "MB_Given", "MB_Heard", "MB_Sums", "MB_LineTrack",
 )  # fmt: skip
 LINE_BLOCKS = (
     "MB_CrcByte", "MB_Plus", "MB_Minus", "MB_Sixteen", "MB_Usual", "MB_Retries", "MB_Characters", "MB_WireMs",
     "MB_Reads", "MB_Repeats", "MB_CheckBegin", "MB_CheckByte", "MB_FrameKind", "MB_ReplyFits", "MB_ReplyMs",
     "MB_Withdrawn", "MB_Rank", "MB_ProbeMs", "MB_WhyFailed", "MB_WhyUnsent", "MB_TriesOver", "MB_Overdue", "MB_PollMs",
     "MB_StopMs", "MB_OthersMs", "MB_CutMs", "MB_ReadsMs", "MB_AskCheck", "MB_Listen", "MB_Frame", "MB_Exchange",
-    "MB_Promise", "MB_Foreign", "MB_Silence", "MB_Stop", "MB_OneSlot", "MB_Sending", "MB_Next",
+    "MB_Promise", "MB_Foreign", "MB_Silence", "MB_Stop", "MB_OneSlot", "MB_Sending", "MB_Next", "MB_Scan", "MB_Stray",
+    "MB_Drives", "MB_Doubled", "MB_Recalled", "MB_DeadMs",
 )  # fmt: skip
 CONTROL_BLOCKS = (
     "VFD_HardStop", "VFD_Next", "VFD_Link", "VFD_Unit", "VFD_Set", "VFD_Usual", "VFD_Pace", "VFD_Evidence",
