@@ -37,6 +37,24 @@ def _watchdog(drive: Drive, watchdog: Watchdog, settings: dict[str, Setting], re
         if one.does == "trips" and watchdog.fault is None:
             report.miss(one.place("does"), "the drive trips, and no fault is named", "add `fault`, a code of `faults`")
     _reactions(watchdog, settings, report)
+    _needed(watchdog, settings, report)
+
+
+def _needed(watchdog: Watchdog, settings: dict[str, Setting], report: Report) -> None:
+    """Note a setting that may let the motor run on without the line, of which nothing says what it must be."""
+    runs = [one for one in watchdog.reactions if one.does in ("runs_on", "other_speed")]
+    choice = settings.get(watchdog.chosen_by or "")
+    if choice is not None and runs:
+        _must(choice, f"the motor runs on without the line where {choice.id} is {runs[0].value}", report)
+    off = settings.get(watchdog.disabled_by.setting) if watchdog.disabled_by else None
+    if off is not None and watchdog.disabled_by:
+        _must(off, f"the drive does not notice a silent line where {off.id} is {watchdog.disabled_by.value}", report)
+
+
+def _must(setting: Setting, wrong: str, report: Report) -> None:
+    if setting.needed is None:
+        right = "say what it must be, as in `needed: {why: the motor stops when the line is cut: never 3}`"
+        report.miss(setting.at, f"{wrong}, and nothing says what to set", right)
 
 
 def _time(drive: Drive, time: SilenceTime, settings: dict[str, Setting], report: Report) -> None:
