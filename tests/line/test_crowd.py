@@ -21,6 +21,13 @@ def test_eight_drives_of_a_family(scan: int, dead: int) -> None:
     assert [each.told for each in map(budget.judge, names) if each.told] == []
 
 
+@pytest.mark.thorough
+@pytest.mark.parametrize("dead", [0, 1, 3])
+def test_a_start_by_states_comes_in_time_on_a_slow_line(dead: int) -> None:
+    """Each of its writes waits for two reads of the status."""
+    assert budget.judge(f"ATV312,50,{dead},line").told == []
+
+
 @pytest.mark.parametrize("name", ["27", "42", "53", "58", "125", "141", "148", "18", "8", "29"])
 def test_beside_a_panel(name: str) -> None:
     assert panel.judge(name).told == []

@@ -73,7 +73,7 @@ def _type(each: Type, outer: Pou) -> str:
 def _constants(pou: Pou, checked: Checked, conditions: Iterable[str]) -> Iterator[str]:
     """The block's own constants, and those of others that all mean the same number, in the narrowest of their types."""
     found: dict[str, list[VarDecl]] = {}
-    for other in checked.blocks.values():
+    for other in (*checked.functions.values(), *checked.blocks.values()):
         for each in _numbers(other):
             found.setdefault(each.name.upper(), []).append(each)
     own = {each.name.upper(): [each] for each in _numbers(pou)}

@@ -37,9 +37,10 @@ LINE_BLOCKS = (
     "MB_Sending", "MB_Next", "MB_Scan", "MB_Stray", "MB_Drives", "MB_Doubled", "MB_Recalled", "MB_DeadMs",
 )  # fmt: skip
 CONTROL_BLOCKS = (
-    "VFD_HardStop", "VFD_Next", "VFD_Link", "VFD_Unit", "VFD_Set", "VFD_Usual", "VFD_Pace", "VFD_Evidence", "VFD_Known",
-    "VFD_IsScale", "VFD_Scaled", "VFD_ScaledSigned", "VFD_Diagnose", "VFD_Identity", "VFD_Pins", "VFD_Run",
-    "VFD_FaultReset", "VFD_Start", "VFD_FirstStop", "VFD_StopRound", "VFD_Steady", "VFD_Send", "VFD_Why", "VFD_Control",
+    "VFD_HardStop", "VFD_Next", "VFD_Link", "VFD_Unit", "VFD_Set", "VFD_Usual", "VFD_Pace", "VFD_Evidence",
+    "VFD_Known", "VFD_IsScale", "VFD_Scaled", "VFD_ScaledSigned", "VFD_Diagnose", "VFD_Identity", "VFD_Bar",
+    "VFD_Pins", "VFD_Ends", "VFD_Run", "VFD_FaultReset", "VFD_Start", "VFD_FirstStop", "VFD_StopRound", "VFD_Steady",
+    "VFD_Send", "VFD_Reason", "VFD_Error", "VFD_Why", "VFD_Control",
 )  # fmt: skip
 PARAMETER_BLOCKS = ("VFD_ReadParameter", "VFD_WriteParameter", "VFD_Store")
 DEVICE = ("MB_Device", "MB_Float")
