@@ -1,0 +1,1 @@
+"""What a machine does, read off its map: commands, status, scales, settings."""
