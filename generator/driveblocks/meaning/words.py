@@ -225,6 +225,11 @@ class Words:
         """A command, where the family has it."""
         return next((one for one in self.commands if one.does == does), None)
 
+    @property
+    def stop(self) -> Command:
+        """The stop by the ramp, which every family has."""
+        return next(one for one in self.commands if one.does == "stop")
+
     def at(self, register: int) -> CommandWord | None:
         """A command register."""
         return next((one for one in self.registers if one.register == register), None)
