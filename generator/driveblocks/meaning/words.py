@@ -175,7 +175,11 @@ class Write:
     """Bits of no command, which are as the user of the block sets them."""
     until: str | None
     for_ms: int
+    """For how long a pulse has to last."""
     silent_ms: int
+    """For how long the drive answers nothing after it."""
+    stays_ms: int
+    """How long its word stays before the next write, at least."""
     at: Place
 
     @property
@@ -296,6 +300,7 @@ def _command(one: Asked, stop: Asked | None, keeps: Mapping[int, int]) -> Comman
                 each.until if isinstance(each, Before) else None,
                 each.for_ms or 0 if isinstance(each, Before) else 0,
                 each.silent_ms or 0,
+                max(each.for_ms or 0, each.silent_ms or 0) if isinstance(each, Before) else 0,
                 each.place(key),
             )
         )

@@ -468,8 +468,8 @@ def _writes(drive: Drive, one: Command) -> Iterator[Write]:
     for each in one.writes:
         last = each is one.last
         word = each.word and COIL_ON if is_bit(each.register) else each.word
-        hold, by = 0 if last else max(each.for_ms, each.silent_ms), writes_by(drive, each.register)
-        yield Write(each.register, word, each.keeps, hold, _wait(drive, each.until), moves and last, by)
+        by, wait = writes_by(drive, each.register), _wait(drive, each.until)
+        yield Write(each.register, word, each.keeps, each.stays_ms, wait, moves and last, by)
 
 
 def _state(drive: Drive, name: str) -> State:
