@@ -224,3 +224,18 @@ def test_the_shapes_move_by_the_write_that_starts() -> None:
         "active_low": [0],
         "packed": [0],
     }
+
+
+@pytest.mark.parametrize(
+    ("value", "says"),
+    [
+        (0x04FF, "starts the motor, by bit 0 `ON/OFF1` at 1"), (0x04FE, "stops the motor and resets a fault"),
+        (0x047D, "lets the motor coast"), (0x057F, "starts the motor, by bit 0 `ON/OFF1` at 1"),
+        (0x057E, "starts a jog, by bit 8 `Jog right` at 1"),
+        (0x007E, "stops the motor and gives the drive to somebody else"),
+    ],
+)  # fmt: skip
+def test_a_word_is_said_by_what_its_fields_do(value: int, says: str) -> None:
+    control = words(drive(V20)).at(CONTROL)
+    assert control is not None
+    assert control.says(value) == says

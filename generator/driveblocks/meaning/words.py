@@ -21,6 +21,13 @@ WORD = 0xFFFF
 MOTIONS: tuple[Does, ...] = ("run_forward", "run_reverse", "jog_forward", "jog_reverse")
 STOPS: tuple[Does, ...] = ("stop", "quick_stop", "coast_stop", "jog_stop")
 MOVES: frozenset[Act] = frozenset({"starts", "jogs"})
+DOES: dict[Act, str] = {
+    "starts": "starts the motor", "jogs": "starts a jog", "forward": "turns the motor forward",
+    "reverses": "turns the motor in reverse", "stops": "stops the motor", "quick_stops": "stops the motor quickly",
+    "coasts": "lets the motor coast", "ends_jog": "ends a jog", "resets": "resets a fault",
+    "hands_over": "gives the drive to somebody else",
+}  # fmt: skip
+"""What each act is, in words."""
 KINDS: tuple[Act, ...] = ("coasts", "quick_stops", "stops", "ends_jog")
 """How a word stops the motor; of several at once, what comes first wins."""
 
@@ -148,6 +155,15 @@ class CommandWord:
         found = [one.effect for one in self.certain(held) if one.effect.acts.intersection(KINDS)]
         found = [one for one in found if one.holds] or found
         return next((kind for kind in KINDS if any(kind in one.acts for one in found)), None)
+
+    def says(self, word: int) -> str:
+        """What a word does to the motor, in words; empty where nothing that matters."""
+        held = Held(WORD, word)
+        moved, stops = self.moves(held), self.stops(held)
+        if moved:
+            return f"{DOES['jogs' if 'jogs' in moved.effect.acts else 'starts']}, by {moved}"
+        acts = [act for act in (stops, "resets", "hands_over") if act and self.gives(act, held)]
+        return " and ".join(DOES[act] for act in acts)
 
     def gives(self, act: Act, held: Held) -> Cause | None:
         """The field that does something in a word for certain."""

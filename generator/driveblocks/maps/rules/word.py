@@ -4,6 +4,7 @@ from driveblocks.maps.form import address_text
 from driveblocks.maps.model import Act, Bit, Does, Drive, Register, Value
 from driveblocks.maps.problem import Report
 from driveblocks.meaning.words import (
+    DOES,
     KINDS,
     MOTIONS,
     STOPS,
@@ -20,12 +21,6 @@ _KIND: dict[Does, Act] = {
     "stop": "stops", "quick_stop": "quick_stops", "coast_stop": "coasts", "jog_stop": "ends_jog",
 }  # fmt: skip
 """How each stop stops."""
-_DOES: dict[Act, str] = {
-    "starts": "starts the motor", "jogs": "starts a jog", "forward": "turns the motor forward",
-    "reverses": "turns the motor in reverse", "stops": "stops the motor", "quick_stops": "stops the motor quickly",
-    "coasts": "lets the motor coast", "ends_jog": "ends a jog", "resets": "resets a fault",
-    "hands_over": "gives the drive to somebody else",
-}  # fmt: skip
 _CORRECT = "correct the command, or what the register's row says that it `does`"
 
 
@@ -99,12 +94,12 @@ def _wrong(command: Command, write: Write, cause: Cause, act: Act | None = None)
         where = f"`{command.does}` keeps bits of {address_text(write.register)} as they are"
     if not cause.effect.declared:
         return f"{where}, and nothing says what {cause} does, so that it counts as starting"
-    return f"{where}, where {cause} {_DOES[act or ('starts' if 'starts' in cause.effect.acts else 'jogs')]}"
+    return f"{where}, where {cause} {DOES[act or ('starts' if 'starts' in cause.effect.acts else 'jogs')]}"
 
 
 def _lacks(command: Command, write: Write, act: Act) -> str:
     """That nothing of a write does what it must."""
-    return f"`{command.does}` writes {write.word:04X}H to {address_text(write.register)}, where nothing {_DOES[act]}"
+    return f"`{command.does}` writes {write.word:04X}H to {address_text(write.register)}, where nothing {DOES[act]}"
 
 
 def _motion(known: Words, command: Command, moving: list[tuple[int, Write, Cause]], report: Report) -> None:
@@ -153,7 +148,7 @@ def _way(known: Words, command: Command, number: int, report: Report) -> None:
 
 
 def _open(command: Command, word: CommandWord, one: Cause, act: Act) -> str:
-    return f"`{command.does}` does not write {address_text(word.register)}, where {one} {_DOES[act]}"
+    return f"`{command.does}` does not write {address_text(word.register)}, where {one} {DOES[act]}"
 
 
 def _stop(known: Words, command: Command, report: Report) -> None:
