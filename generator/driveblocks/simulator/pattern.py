@@ -3,7 +3,8 @@
 from dataclasses import dataclass
 
 from driveblocks.maps.form import Span
-from driveblocks.maps.model import Command, Condition, State, Step
+from driveblocks.maps.model import Condition, State
+from driveblocks.meaning.words import Write
 
 WORD = 0xFFFF
 
@@ -42,11 +43,9 @@ def of_condition(condition: Condition | State) -> Pattern:
     return Pattern(condition.register, WORD if condition.mask is None else condition.mask, condition.equals, differs)
 
 
-def of_write(write: Command | Step) -> Pattern:
-    """What is in its register after a command or a step; bits that it keeps do not count."""
-    if write.value is not None:
-        return Pattern(write.register, WORD, write.value & WORD)
-    return Pattern(write.register, _mask((*write.set, *write.clear)), _mask(write.set))
+def of_write(write: Write) -> Pattern:
+    """What is in its register after a write of a command; bits that it keeps do not count."""
+    return Pattern(write.register, WORD & ~write.keeps, write.word)
 
 
 def _mask(bits: tuple[Span, ...]) -> int:
