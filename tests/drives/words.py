@@ -5,7 +5,8 @@ from functools import cache
 from tests.second.line import RUNS, Bench, Frame
 from tests.second.station import maps
 
-from driveblocks.meaning.pattern import Pattern, of_write
+from driveblocks.meaning.pattern import Pattern
+from driveblocks.meaning.words import words
 
 STOPS = ("stop", "quick_stop", "coast_stop", "jog_stop")
 MOTIONS = dict(zip(RUNS, ("run_forward", "run_reverse", "jog_forward", "jog_reverse"), strict=True))
@@ -14,11 +15,7 @@ MOTIONS = dict(zip(RUNS, ("run_forward", "run_reverse", "jog_forward", "jog_reve
 @cache
 def _words(kind: str) -> list[tuple[str, Pattern]]:
     """The commands of a map, each with the writes before its last."""
-    found: list[tuple[str, Pattern]] = []
-    for command in maps()[kind].operation.commands:
-        found += [(command.does, of_write(step)) for step in command.first]
-        found.append((command.does, of_write(command)))
-    return found
+    return [(command.does, each.pattern) for command in words(maps()[kind]).commands for each in command.writes]
 
 
 def does(bench: Bench, frame: Frame) -> set[str]:

@@ -229,13 +229,13 @@ def test_a_drive_runs_at_no_frequency_and_at_no_more_than_its_maximum() -> None:
     assert jscc.drive.hertz == 50
 
 
-def test_terminals_of_sn300g5_are_no_command_and_both_directions_are_none() -> None:
+def test_terminals_of_sn300g5_are_no_command_and_both_directions_are_the_worse_one() -> None:
     one = talk("SN300G5").at(20)
     one.write(0x0000, 0x00FD)
     assert one.drive.mode == "running"
     one.write(0x0000, 0x0003)
     one.drive.step(1000)
-    assert one.drive.hertz == 20
+    assert one.drive.hertz == 10  # on its way to the other direction
     one.write(0x0000, 0x00FC)
     one.drive.step(2000)
     assert one.drive.mode == "standstill"
@@ -255,3 +255,16 @@ def test_measures_go_with_speed_and_load() -> None:
     one.drive.load = 80
     # 540 V; half of 400 V; 80 % of 10 A; half of 80 % of 4 kW
     assert [one.read(address) for address in (0x3002, 0x3003, 0x3004, 0x3006)] == [54000, 20000, 800, 160]
+
+
+def test_a_word_that_is_no_command_does_what_its_bits_do() -> None:
+    """PowerFlex 4: a reset beside a start starts, a stop alone stops, whatever rate is asked for beside it."""
+    one = talk("PF4").at(20)
+    one.write(0x2000, 0x0101)
+    one.drive.step(4000)
+    assert one.drive.mode == "standstill"
+    one.write(0x2000, 0x0108)
+    assert one.drive.mode == "standstill"
+    one.write(0x2000, 0x000A)
+    one.drive.step(100)
+    assert one.drive.mode == "ramping up"

@@ -173,3 +173,13 @@ def test_a_drive_of_states_that_is_in_none_says_that_switching_on_is_disabled(na
     assert one.drive.word(register) & mask == word
     one.drive.trip(1)
     assert one.drive.word(register) & 0x40 == 0
+
+
+def test_a_reset_with_the_run_bits_starts_a_drive_that_waits_for_the_edge() -> None:
+    one = talk(shapes()["profidrive"])
+    one.hertz(10)
+    assert [write(one, word) for word in (0x47E, 0x4FE, 0x4FF)] == [0x01, 0x01, 0x07]
+    for stop, hz in ((0x47B, 0), (0x47D, 0)):
+        write(one, stop)
+        one.drive.step(10_000)
+        assert one.drive.hertz == hz

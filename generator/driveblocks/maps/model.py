@@ -53,6 +53,7 @@ Feed = Literal["read", "reference", "run", "any"]
 """What a drive's own watchdog takes for a sign of life of its master."""
 Reacts = Literal["stop", "quick_stop", "coast_stop", "trips", "runs_on", "other_speed"]
 """What a drive does by itself when its line is silent; the stops are those of the commands."""
+By = Literal["edge", "level"]
 Trust = Literal["read", "sister", "transcribed", "in_use"]
 """How far facts of a document can be trusted, the best first."""
 Space = Literal["holding", "input", "coil", "discrete"]
@@ -61,6 +62,11 @@ Does = Literal[
     "run_forward", "run_reverse", "jog_forward", "jog_reverse", "jog_stop", "stop", "coast_stop", "quick_stop",
     "fault_reset",
 ]  # fmt: skip
+Act = Literal[
+    "starts", "jogs", "forward", "reverses", "stops", "quick_stops", "coasts", "ends_jog", "resets", "enables",
+    "hands_over", "nothing",
+]  # fmt: skip
+"""What a bit or a value of a command register does to the motor."""
 
 
 def fact(doc: str, example: str, *, optional: bool = False, default: Any = None) -> Any:
@@ -71,6 +77,14 @@ def fact(doc: str, example: str, *, optional: bool = False, default: Any = None)
 
 _CHINESE = "the manual's Chinese, as printed, misprints included; a must where the manual is Chinese"
 _SAYS_SO = "id of the document that says so, where the manual does not"
+_ACTS = (
+    "`stops` is by its ramp, `enables` lets another bit start, `hands_over` gives the command to keypad or terminals"
+)
+_BY = "what counts of that: its `edge`, so that it acts once when it comes, or its `level`; left out where nobody says"
+_HOLDS = (
+    "its stop holds the motor still by its level, whatever the others of the word say; only where the manual says that "
+    "it wins"
+)
 _WORDING = (
     "the manual's own words where it is neither English nor Chinese; of an English manual, what is printed where the "
     "English departs from it"
@@ -205,6 +219,15 @@ class Value(Returned):
     """One value of an enumeration."""
 
     value: Number = fact("the number on the wire or on the keypad", "1")
+    does: tuple[Act, ...] = fact(
+        f"of a command register, what the value does to the motor, all of it; {_ACTS}; a value but 0 that does not say "
+        "it counts as starting",
+        "[starts, reverses]",
+        optional=True,
+        default=(),
+    )
+    by: By | None = fact(_BY, "edge", optional=True)
+    holds: bool = fact(_HOLDS, "true", optional=True, default=False)
     symbol: Symbol | None = fact(
         "identifier in Structured Text, where the one made from the name is too long or taken",
         "InputTerminals",
@@ -563,6 +586,16 @@ class Bit(Worded, Entry):
     wording: Str | None = fact(_WORDING, '"1: In Betrieb"', optional=True)
     id: Str | None = fact("the manual's short id, such as a fault's", "UV1", optional=True)
     unused: bool = fact("the manual says that the bit is not used", "true", optional=True, default=False)
+    does: tuple[Act, ...] = fact(
+        "of a command register, what the bit does to the motor at 1, or a field at any value but 0 that does not say "
+        f"it itself; {_ACTS}; left out, it counts as starting",
+        "[starts]",
+        optional=True,
+        default=(),
+    )
+    at_0: tuple[Act, ...] = fact("what it does at 0, as above; by its level", "[coasts]", optional=True, default=())
+    by: By | None = fact(_BY, "edge", optional=True)
+    holds: bool = fact(_HOLDS, "true", optional=True, default=False)
     values: tuple[Value, ...] = fact(
         "meaning of each value of a field, or of 0 and 1", "[{value: 0, name: ..., zh: ...}]", optional=True, default=()
     )
@@ -640,6 +673,12 @@ class Register(Worded, Entry):
     )
     masks: bool = fact(
         "the values are single bits; the manual does not say whether they combine", "true", optional=True, default=False
+    )
+    does: tuple[Act, ...] = fact(
+        "of a command register without values and bits, what any value but 0 does to the motor, as in [Bit](#bit)",
+        "[resets]",
+        optional=True,
+        default=(),
     )
     bits: tuple[Bit, ...] = fact("bits of the word", "[{bit: 0, name: Running, zh: 运行中}]", optional=True, default=())
     never: tuple[Never, ...] = fact(
@@ -803,7 +842,7 @@ class Step(Entry):
 class Command(Entry):
     """What one command is on the wire: a value of the command register, or bits set and cleared in it.
 
-    The register's own table must call that so: a stop is a value called stop, or clears what a motion sets.
+    The register's row must say that its bits or values do just that.
     """
 
     does: Does = fact("what it does", "run_forward")
@@ -821,7 +860,7 @@ class Command(Entry):
         "fault_reset: how long the drive answers nothing once it has answered this write, ms", "1000", optional=True
     )
     because: English | None = fact(
-        "the manual's reason, where the register's table does not call it so; excuses no motion and no direction",
+        "the manual's reason, in a sentence, where its table of bits or values does not tell it",
         "section 3 says that writing 0 stops the motor by its ramp",
         optional=True,
     )

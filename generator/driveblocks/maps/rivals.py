@@ -10,18 +10,17 @@ from typing import Literal
 from driveblocks.maps import catalog
 from driveblocks.maps.form import Span, address_text
 from driveblocks.maps.load import load
-from driveblocks.maps.model import Command, Drive, Register, Setting, Step, Value, kept
+from driveblocks.maps.model import Drive, Register, Setting, kept
 from driveblocks.maps.pair import whole
 from driveblocks.maps.plan import dialect, plan, reads_by, writes_by
 from driveblocks.maps.polls import Poll, fast_words, identity_read
+from driveblocks.meaning.words import STOPS, Held, Write, words
 from driveblocks.modbus.layout import Dialect
 
 Meaning = Literal["motion", "other", "unknown", "stop", "refused"]
 """Of a written word: it may move the motor; it is something else; the map does not say; it stops; it is not taken."""
 WORST: tuple[Meaning, ...] = ("motion", "other", "unknown", "stop", "refused")
 HARMS: tuple[Meaning, ...] = ("motion", "other")
-STOPS = ("stop", "quick_stop", "coast_stop", "jog_stop")
-MOTIONS = ("run_forward", "run_reverse", "jog_forward", "jog_reverse")
 ALL = 0xFFFF
 ADDRESSES = Span(1, 247)
 MOST_READS = 3
@@ -70,32 +69,19 @@ class Pair:
 def stops_at(drive: Drive, other: Drive) -> list[Stop]:
     """The stops of a family at a drive of another, the worst first; bits that belong to no command are 0."""
     found = [
-        Stop(one.does, write.register, _word(write), *_meaning(drive, write, other))
-        for one in drive.operation.commands
+        Stop(one.does, one.last.register, one.last.word, *_meaning(drive, one.last, other))
+        for one in words(drive).commands
         if one.does in STOPS
-        for write in one.writes
     ]
     return sorted(found, key=lambda each: WORST.index(each.means))
 
 
-def _word(write: Command | Step) -> int:
-    return sum(1 << bit for span in write.set for bit in span) if write.value is None else write.value & ALL
-
-
-def _holds(write: Command | Step, word: int) -> bool:
-    """Whether a word is what a command writes, whatever the bits are that it leaves alone."""
-    if write.value is not None:
-        return word == write.value & ALL
-    counts = sum({1 << bit for span in (*write.set, *write.clear) for bit in span})
-    return word & counts == _word(write)
-
-
-def _meaning(drive: Drive, write: Command | Step, other: Drive) -> tuple[Meaning, str]:
+def _meaning(drive: Drive, write: Write, other: Drive) -> tuple[Meaning, str]:
     register, function = write.register, writes_by(drive, write.register)
     if function not in {each.code for each in other.functions}:
         return "refused", f"it has no function {function:02X}H"
-    if any(each.register == register for one in other.operation.commands for each in one.writes):
-        return _command(other, register, _word(write))
+    if words(other).at(register):
+        return _command(other, register, write.word)
     if register in whole(other, other.operation.reference.register):
         return "other", "its speed reference"
     return _register(other, register)
@@ -115,21 +101,19 @@ def _register(other: Drive, register: int) -> tuple[Meaning, str]:
 
 
 def _command(other: Drive, register: int, word: int) -> tuple[Meaning, str]:
-    """A word in a command register. One of bits that is no command of the map may move the motor."""
-    row = other.register_at(register, "w")
-    every = [(one, write) for one in other.operation.commands for write in one.writes if write.register == register]
-    for does, means in ((MOTIONS, "motion"), (STOPS, "stop"), (("fault_reset",), "other")):
-        for one, write in every:
-            ends = write is one or one.does not in MOTIONS  # the writes before the last one prepare a motion
-            if one.does in does and ends and _holds(write, word):
-                return means, f"its {one.does.replace('_', ' ')}"  # type: ignore[return-value]  # a Meaning
-    if any(_holds(write, word) for _, write in every):
-        return "other", "a step towards its run"
-    if row is not None and row.values and not row.masks:
-        named: Value | None = next((each for each in row.values if each.value == word), None)
-        return ("other", f'its "{named.name}"') if named else ("unknown", "its map lists no such value")
-    names = [bit.name for bit in row.bits if bit.name and word >> bit.bit.first & 1] if row else []
-    return "motion", f"its {' and '.join(repr(each) for each in names).replace(chr(39), chr(34)) or 'command'}"
+    """A word in a command register, by what its fields do; of a register of values, one that is listed."""
+    row, known = other.register_at(register, "w"), words(other)
+    listed = [each for each in row.values if each.value == word] if row and not row.masks else []
+    if row is not None and row.values and not row.masks and not listed:
+        return "unknown", "its map lists no such value"
+    told = known.at(register)
+    held = Held(ALL, word)
+    cause = told.moves(held) if told else None
+    means: Meaning = "motion" if cause else "stop" if told and told.stops(held) else "other"
+    named = [one for one in known.commands if one.last.register == register and one.last.is_in(word)]
+    if named:
+        return means, f"its {named[0].does.replace('_', ' ')}"
+    return means, f"its {cause or 'command'}"
 
 
 # ------------------------------------------------------------ what is read before the first stop

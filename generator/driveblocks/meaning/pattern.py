@@ -4,7 +4,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 from driveblocks.maps.form import Span, address_text, bits_text, masked_text
-from driveblocks.maps.model import Command, Condition, State, Step
+from driveblocks.maps.model import Condition, State
 
 WORD = 0xFFFF
 
@@ -50,13 +50,6 @@ def of_condition(condition: Condition | State) -> Pattern:
     if bit is not None:
         return Pattern(condition.register, bits_of([bit]), condition.equals << bit.first, differs)
     return Pattern(condition.register, WORD if condition.mask is None else condition.mask, condition.equals, differs)
-
-
-def of_write(write: Command | Step) -> Pattern:
-    """What is in its register after a command or a step; bits that it keeps do not count."""
-    if write.value is not None:
-        return Pattern(write.register, WORD, write.value & WORD)
-    return Pattern(write.register, bits_of((*write.set, *write.clear)), bits_of(write.set))
 
 
 def bits_of(spans: Iterable[Span]) -> int:

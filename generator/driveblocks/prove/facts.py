@@ -6,7 +6,7 @@ Taken from the map itself, not from what the generator made of it.
 from collections.abc import Iterable, Iterator, Mapping
 
 from driveblocks.maps.form import is_bit
-from driveblocks.maps.model import Command, Drive, Step
+from driveblocks.maps.model import Does, Drive
 from driveblocks.maps.plan import writes_by
 from driveblocks.maps.polls import Poll, fast_words, fault_words, polls, schedule, slow_words
 from driveblocks.maps.revision import checked
@@ -14,19 +14,18 @@ from driveblocks.maps.rivals import first_reads, refusals
 from driveblocks.maps.trust import second_hand
 from driveblocks.maps.view import error_number
 from driveblocks.meaning.measure import PINS, Measure, measures, own_maximum
-from driveblocks.meaning.pattern import Pattern, bits_of
+from driveblocks.meaning.pattern import Pattern
 from driveblocks.meaning.reference import reference
 from driveblocks.meaning.roles import roles
 from driveblocks.meaning.serial import serial
 from driveblocks.meaning.status import status
+from driveblocks.meaning.words import MOTIONS, STOPS, Command, words
 from driveblocks.modbus.layout import COIL_ON
 from driveblocks.render.context import word_input
 from driveblocks.render.decoded import Decoded
 from driveblocks.render.drive import STATUS
 from structured_text.language.writing import word
 
-MOTIONS = ("run_forward", "run_reverse", "jog_forward", "jog_reverse")
-STOPS = ("stop", "quick_stop", "coast_stop", "jog_stop")
 SENT = dict(
     zip((*MOTIONS, "fault_reset"), ("GO_FORWARD", "GO_REVERSE", "JOG_AHEAD", "JOG_BACK", "RESET_FAULT"), strict=True)
 )
@@ -43,14 +42,13 @@ NEAR = (
 
 def facts(drive: Drive) -> dict[str, str]:
     """The facts of a family by the names under which the rules have them, as ST."""
-    commands: dict[str, Command] = {one.does: one for one in drive.operation.commands}
-    stop, shows = commands["stop"], status(drive)
-    speed = reference(drive)
+    commands = {one.does: one for one in words(drive).commands}
+    shows, speed = status(drive), reference(drive)
     found = {
         "P": drive.prefix,
         "lowest": str(serial(drive).lowest),
         "highest": str(serial(drive).highest),
-        "write": str(writes_by(drive, stop.register)),
+        "write": str(writes_by(drive, words(drive).stop.last.register)),
         "reference": word(speed.register),
         "written": _written(drive),
         "sent_word": f"Slot.Ask[1].Words[{speed.quantity.low - speed.register}]",
@@ -64,7 +62,7 @@ def facts(drive: Drive) -> dict[str, str]:
         "at_a_write": _every(_writes(commands, "(Control.Sent <> {name}) OR (Control.StepNumber <= {last})")),
         "all_written": _every(_writes(commands, "(Control.Send.Order <> {name}) OR (Control.Send.OrderStep = {last})")),
         "unwritable": _every(_beside(each) for each in sorted(_command_registers(drive)) if not is_bit(each)),
-        "keep": "Settings.KeepWord" if any(_kept(drive, one) for one in commands.values()) else word(0),
+        "keep": "Settings.KeepWord" if any(one.last.keeps for one in commands.values()) else word(0),
     }
     shown = {one.name for one in shows.shown}
     measured = {one.name for one in measures(drive)}
@@ -79,32 +77,29 @@ def facts(drive: Drive) -> dict[str, str]:
     found["says_by_bus"] = _every(Decoded(drive).holds(each) for each in by_bus)
     found["others_command"] = f"Control.Seen.OthersCommand <> ({found['says_by_bus']})" if by_bus else "TRUE"
     found["says_running"] = _any(Decoded(drive).holds(each) for each in running)
-    for does in (*MOTIONS, *STOPS, "fault_reset"):
+    every: tuple[Does, ...] = (*MOTIONS, *STOPS, "fault_reset")
+    for does in every:
         one = commands.get(does)
         ask = "Slot.Ask[0]" if does in STOPS else "Slot.Ask[1]"
-        found[does] = _any(_frames(drive, one, stop, ask)) if one else "FALSE"
-        found[f"last_{does}"] = list(_frames(drive, one, stop, ask))[-1] if one else "FALSE"
+        found[does] = _any(_frames(drive, one, ask)) if one else "FALSE"
+        found[f"last_{does}"] = list(_frames(drive, one, ask))[-1] if one else "FALSE"
         found[f"can_{does}"] = str(one is not None).upper()
     copies = {"copy_stop": ("stop", "Slot.Stop"), "copy_jog_stop": ("jog_stop", "Slot.JogStop")}
-    for name, (does, copy) in copies.items():
-        frame = found[f"last_{does}"].replace("Slot.Ask[0].Address", f"{copy}Register")
-        found[name] = frame.replace("Slot.Ask[0].Words[0]", f"{copy}Word") if does in commands else "TRUE"
+    for name, (stop, copy) in copies.items():
+        frame = found[f"last_{stop}"].replace("Slot.Ask[0].Address", f"{copy}Register")
+        found[name] = frame.replace("Slot.Ask[0].Words[0]", f"{copy}Word") if stop in commands else "TRUE"
     found["quick_or_stop"] = found["quick_stop"] if "quick_stop" in commands else found["stop"]
     found["coast_or_stop"] = found["coast_stop"] if "coast_stop" in commands else found["stop"]
     return found
 
 
-def _frames(drive: Drive, one: Command, stop: Command, ask: str) -> Iterator[str]:
+def _frames(drive: Drive, one: Command, ask: str) -> Iterator[str]:
     """Each write of a command as a condition on a request: its register, and its word with the bits that are kept."""
-    image = {stop.register: bits_of(stop.set)} if one.does == "fault_reset" else {}
     for write in one.writes:
-        keep = 0 if write.value is not None else _kept(drive, write)
-        before = image.get(write.register, 0) & ~bits_of(write.clear)
-        image[write.register] = write.value if write.value is not None else before | bits_of(write.set)
-        value = word(COIL_ON * image[write.register] if is_bit(write.register) else image[write.register])
-        held = f"({ask}.Words[0] AND {word(ALL ^ keep)}) = {value}" if keep else f"{ask}.Words[0] = {value}"
+        value = word(COIL_ON * write.word if is_bit(write.register) else write.word)
+        sent = f"({ask}.Words[0] AND {word(ALL ^ write.keeps)})" if write.keeps else f"{ask}.Words[0]"
         by = _by(drive, write.register) if ask == "Slot.Ask[1]" else ""
-        yield f"({ask}.Address = {word(write.register)}) AND ({held}){by}"
+        yield f"({ask}.Address = {word(write.register)}) AND ({sent} = {value}){by}"
 
 
 def _by(drive: Drive, register: int) -> str:
@@ -134,16 +129,6 @@ def _written(drive: Drive) -> str:
         zero = f"({zero} AND NOT ({negative}) OR ({above} = {word(ALL)}) AND ({negative}))"
     pair = f"(Slot.Ask[1].Quantity = 2) AND {zero}"
     return f"({codes}) AND (({is_}) AND {pair} OR NOT ({is_}) AND (Slot.Ask[1].Quantity = 1))"
-
-
-def _kept(drive: Drive, write: Command | Step) -> int:
-    """The bits of a command register that the manual gives a use, that no command touches and that may be sent."""
-    row = drive.register_at(write.register, "w")
-    used = {bit for entry in (row.bits if row else ()) if not entry.unused for bit in entry.bit}
-    writes = [each for one in drive.operation.commands for each in one.writes if each.register == write.register]
-    touched = {bit for each in writes for span in (*each.set, *each.clear) for bit in span}
-    barred = {bit for each in (row.never if row else ()) for bit in each.bit}
-    return 0 if write.value is not None else sum(1 << bit for bit in used - touched - barred)
 
 
 def _holds(drive: Drive, one: Pattern) -> str:
@@ -301,24 +286,24 @@ def _reference(drive: Drive) -> dict[str, str]:
     }
 
 
-def _writes(commands: Mapping[str, Command], form: str) -> Iterator[str]:
+def _writes(commands: Mapping[Does, Command], form: str) -> Iterator[str]:
     """Something about each command and the number of its last write, from 0."""
     return (form.format(name=SENT[does], last=len(one.writes) - 1) for does, one in commands.items() if does in SENT)
 
 
 def _holds_ms(drive: Drive) -> Iterator[str]:
     """For how long each word of a command has to stay, where one has several."""
-    several = any(one.first for one in drive.operation.commands)
-    for one in drive.operation.commands:
+    commands = words(drive).commands
+    several = any(len(one.writes) > 1 for one in commands)
+    for one in commands:
         if several and one.does in SENT:
-            for step, hold in enumerate([*(each.for_ms or 0 for each in one.first), 0]):
+            for step, write in enumerate(one.writes):
                 sent = f"(Control.Sent = {SENT[one.does]}) AND (Control.StepNumber = {step})"
-                yield f"NOT ({sent}) OR (Orders.HoldMs = {hold})"
+                yield f"NOT ({sent}) OR (Orders.HoldMs = {write.stays_ms})"
 
 
 def _command_registers(drive: Drive) -> set[int]:
-    written = {write.register for one in drive.operation.commands for write in one.writes}
-    return written | {*reference(drive).registers}
+    return {one.register for one in words(drive).registers} | {*reference(drive).registers}
 
 
 def _beside(register: int) -> str:

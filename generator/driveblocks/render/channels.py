@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 from driveblocks.maps.model import Drive
 from driveblocks.maps.polls import Poll
+from driveblocks.meaning.words import words
 from driveblocks.render import context
 from driveblocks.render.context import Word
 from driveblocks.render.drive import drive_block
@@ -40,7 +41,6 @@ class Channels:
 def channels(drive: Drive) -> dict[str, object]:
     """The requests with the words that matter, and the blocks that make and read them."""
     block = drive_block(drive)
-    stop = next(one for one in drive.operation.commands if one.does == "stop")
     decoders = {one.address_text: one.name for one in context.decoders(drive) if one.read}
     scales = {one.address_text: one.name for one in context.scales(drive) if one.read}
     pins = {one.pin for one in block.showing.verify}
@@ -58,4 +58,4 @@ def channels(drive: Drive) -> dict[str, object]:
     ]
     reads = [one for one in reads if one.words]
     checks = [turn for turn, one in enumerate(reads, 2) if pins & {each.word.name for each in one.words}]
-    return block.values | vars(motor(drive)) | vars(Channels(stop.register, reads, checks))
+    return block.values | vars(motor(drive)) | vars(Channels(words(drive).stop.last.register, reads, checks))

@@ -9,7 +9,6 @@ from driveblocks import __version__
 from driveblocks.maps import names
 from driveblocks.maps.form import Span, address_text, bits_text, is_bit, space_of
 from driveblocks.maps.model import (
-    Command,
     Drive,
     Register,
     Section,
@@ -23,6 +22,7 @@ from driveblocks.meaning.quantity import Quantity, of_row
 from driveblocks.meaning.reference import reference
 from driveblocks.meaning.serial import Broadcast, Serial, serial
 from driveblocks.meaning.status import registers, status
+from driveblocks.meaning.words import STOPS, Command, words
 from driveblocks.render.expression import Test, is_real
 
 STANDARD_EXCEPTION_ADD = 0x80
@@ -376,15 +376,14 @@ class Commanded:
 
 def command(drive: Drive) -> Commanded:
     """What commands write."""
-    commands = {one.does: one for one in drive.operation.commands if not one.negative}
-    stop = commands["stop"]
-    keeps = _keeps(drive, stop.register)
-    told: dict[str, Told] = {does: _told(one, stop, keeps) for does, one in commands.items()}
-    stops = {one.register for one in commands.values() if one.does in ("coast_stop", "quick_stop", "jog_stop")}
+    stop = words(drive).stop
+    keeps = _keeps(drive, stop.last.register)
+    told: dict[str, Told] = {one.does: _told(one, keeps) for one in words(drive).commands if not one.negative}
+    stops = {each.register for does, each in told.items() if does in STOPS}
     return Commanded(
         source=source_of(drive, stop.source),
-        elsewhere=len({one.register for one in commands.values()}) > 1,
-        stops_elsewhere=bool(stops - {stop.register}),
+        elsewhere=len({each.register for each in told.values()}) > 1,
+        stops_elsewhere=len(stops) > 1,
         stop=told["stop"],
         has=told,
         keeps=list(keeps.values()),
@@ -417,25 +416,13 @@ def _keeps(drive: Drive, first: int) -> dict[int, Keep]:
 
 def kept(drive: Drive) -> dict[int, int]:
     """The bits of each command register that are in use and belong to no command, where there are such."""
-    writes = [write for one in drive.operation.commands for write in one.writes if write.value is None]
-    found = {}
-    for register in {one.register for one in writes}:
-        row = drive.register_at(register, "w")
-        used = bits_of(bit.bit for bit in (row.bits if row else ()) if not bit.unused) & ~(row.barred if row else 0)
-        mask = used & ~bits_of(span for one in writes if one.register == register for span in (*one.set, *one.clear))
-        if mask:
-            found[register] = mask
-    return found
+    found = {each.register: each.keeps for one in words(drive).commands for each in one.writes if each.keeps}
+    return dict(sorted(found.items()))
 
 
-def _told(one: Command, stop: Command, keeps: dict[int, Keep]) -> Told:
-    """A command; a reset beside the run bits is a stop with the bits of the reset."""
-    if one.value is not None:
-        return Told(one.register, one.value, None)
-    bits = bits_of(one.set)
-    if one.does == "fault_reset" and one.register == stop.register:
-        bits |= bits_of(stop.set) & ~bits_of(one.clear)
-    return Told(one.register, bits, keeps.get(one.register))
+def _told(one: Command, keeps: dict[int, Keep]) -> Told:
+    last = one.last
+    return Told(last.register, last.word, keeps.get(last.register) if last.keeps else None)
 
 
 def referred(drive: Drive) -> dict[str, object]:

@@ -9,7 +9,7 @@ from operator import or_
 
 from driveblocks.maps import names
 from driveblocks.maps.form import address_text, is_bit
-from driveblocks.maps.model import Command, Drive, kept
+from driveblocks.maps.model import Drive, kept
 from driveblocks.maps.plan import writes_by
 from driveblocks.maps.polls import (
     Poll,
@@ -30,6 +30,7 @@ from driveblocks.meaning.reference import Reference, reference
 from driveblocks.meaning.roles import Roles, roles
 from driveblocks.meaning.serial import Serial, serial
 from driveblocks.meaning.status import Sign, status
+from driveblocks.meaning.words import Command, words
 from driveblocks.modbus.checksum import crc16
 from driveblocks.modbus.layout import COIL_ON, Dialect
 from driveblocks.render import context
@@ -257,7 +258,7 @@ class Ordering:
     awaited: list[Output]
     reached: str
     """TRUE when the state that the next write waits for is there."""
-    can: dict[str, Command]
+    can: frozenset[str]
     keeps: dict[int, int]
     write: int
     """The function code of stops."""
@@ -360,10 +361,10 @@ def _running_first(one: Sign) -> bool:
 
 
 def _ordering(drive: Drive) -> Ordering:
-    commands = {one.does: one for one in drive.operation.commands}
-    written = [(one, list(_writes(drive, one, commands["stop"]))) for one in commands.values()]
+    written = [(one, list(_writes(drive, one))) for one in words(drive).commands]
     orders = {ORDERS[one.does]: writes for one, writes in written if one.does in ORDERS}
-    by, of_speed = (writes_by(drive, each) for each in (commands["stop"].register, reference(drive).register))
+    stop = words(drive).stop.last
+    by, of_speed = (writes_by(drive, each) for each in (stop.register, reference(drive).register))
     return Ordering(
         stops={STOPS[one.does]: writes[0] for one, writes in written if one.does in STOPS},
         orders=orders,
@@ -374,7 +375,7 @@ def _ordering(drive: Drive) -> Ordering:
         longest=max(map(len, orders.values())),
         awaited=list(_awaited(drive)),
         reached=_reached(drive),
-        can={str(does): one for does, one in commands.items()},
+        can=frozenset(one.does for one, _ in written),
         keeps=context.kept(drive),
         write=by,
         by=of_speed,
@@ -391,9 +392,8 @@ def family_number(prefix: str) -> int:
 
 def _own(drive: Drive) -> Own:
     reply = context.reply(drive)
-    stop = next(one for one in drive.operation.commands if one.does == "stop")
     return Own(
-        source=context.source_of(drive, stop.source),
+        source=context.source_of(drive, words(drive).stop.source),
         prefix=drive.prefix,
         family_number=family_number(drive.prefix),
         serial=serial(drive),
@@ -411,26 +411,14 @@ def _busy(drive: Drive) -> int:
     return next((error_number(one) or 0 for one in drive.errors.codes if one.busy), 0)
 
 
-def _writes(drive: Drive, one: Command, stop: Command) -> Iterator[Write]:
-    """All writes of a command in order.
-
-    Bits that a write neither sets nor clears stay as the write before has left them; a reset begins as a stop.
-    """
-    kept = context.kept(drive)
-    image = {stop.register: bits_of(stop.set)} if one.does == "fault_reset" else {}
-    holds = [*(max(step.for_ms or 0, step.silent_ms or 0) for step in one.first), 0]
-    waits = [*(_wait(drive, step.until) for step in one.first), None]
+def _writes(drive: Drive, one: Command) -> Iterator[Write]:
+    """All writes of a command in order."""
     moves = one.does in ORDERS and one.does != "fault_reset"
-    for write, hold, wait in zip(one.writes, holds, waits, strict=True):
-        if write.value is not None:
-            image[write.register] = write.value
-        else:
-            before = image.get(write.register, 0) & ~bits_of(write.clear)
-            image[write.register] = before | bits_of(write.set)
-        keep = 0 if write.value is not None else kept.get(write.register, 0)
-        bits = image[write.register] and COIL_ON if is_bit(write.register) else image[write.register]
-        last = moves and write is one
-        yield Write(write.register, bits, keep, hold, wait, last, writes_by(drive, write.register))
+    for each in one.writes:
+        last = each is one.last
+        word = each.word and COIL_ON if is_bit(each.register) else each.word
+        by, wait = writes_by(drive, each.register), _wait(drive, each.until)
+        yield Write(each.register, word, each.keeps, each.stays_ms, wait, moves and last, by)
 
 
 def _state(drive: Drive, name: str) -> Pattern:
@@ -439,8 +427,8 @@ def _state(drive: Drive, name: str) -> Pattern:
 
 def _state_words(drive: Drive) -> dict[int, tuple[str, str]]:
     """The registers of the states that writes wait for: the name of the word, and what tells one from another."""
-    steps = [step for one in drive.operation.commands for step in one.first]
-    registers = sorted({_state(drive, step.until).register for step in steps if step.until is not None})
+    awaited = {each.until for one in words(drive).commands for each in one.writes if each.until is not None}
+    registers = sorted({_state(drive, each).register for each in awaited})
     return {each: (word_input(drive, each).name, str(at or "")) for at, each in enumerate(registers)}
 
 

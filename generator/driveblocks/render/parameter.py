@@ -9,6 +9,7 @@ from driveblocks.maps.model import Drive, Storage
 from driveblocks.maps.pair import whole
 from driveblocks.maps.plan import Plan, holding
 from driveblocks.meaning.serial import serial
+from driveblocks.meaning.words import words
 from driveblocks.render.context import source_of
 
 MOST = 4
@@ -78,10 +79,7 @@ def _settings(drive: Drive) -> Iterator[int | None]:
 def _commanded(drive: Drive) -> Iterator[int]:
     """The registers by which the drive block moves the motor."""
     yield from whole(drive, drive.operation.reference.register)
-    for command in drive.operation.commands:
-        for write in command.writes:
-            if not is_bit(write.register):
-                yield write.register
+    yield from (each.register for each in words(drive).registers if not is_bit(each.register))
 
 
 def _listed(drive: Drive) -> Iterator[int]:

@@ -4,12 +4,13 @@ from collections.abc import Mapping
 
 from driveblocks.maps.model import Drive
 from driveblocks.meaning.pattern import WORD
+from driveblocks.meaning.words import CommandWord, Held
 from driveblocks.simulator.copies import RPM_OF_ONE_PAIR, Copy
 from driveblocks.simulator.face import Situation
 from driveblocks.simulator.habits import Habits
 from driveblocks.simulator.memory import Memory
 from driveblocks.simulator.motor import Motor
-from driveblocks.simulator.move import MOTIONS, STATE, STOPS, Move, Need
+from driveblocks.simulator.move import BY_ACT, MOTIONS, STATE, STOPS, Move, Need
 from driveblocks.simulator.plate import plate
 from driveblocks.simulator.table import Gauge, table
 
@@ -311,6 +312,26 @@ class Machine:
             self._settle()
         if not stop:
             self._move(fired)
+        for word in self.table.words:
+            listed = (one for one in self.table.listed if one.register == word.register)
+            if word.register in before and not any(one.holds(self.memory[word.register]) for one in listed):
+                self._strange(word, before)
+
+    def _strange(self, word: CommandWord, before: Mapping[int, tuple[int, int]]) -> None:
+        """A word that is none of the map's own: it does what its bits or its value do, and moves where it may."""
+        held, was = Held(WORD, self.memory[word.register]), Held(WORD, before[word.register][0])
+        resets, moved, kind = word.gives("resets", held), word.moves(held, was), word.stops(held)
+        if resets and (resets.effect.by != "edge" or word.gives("resets", was) is None):
+            self.reset()
+        guards = {move.guard for move in self.table.moves if move.effect in MOTIONS}
+        if moved and not self.fault and not self.inhibited and (None in guards or self.state in guards):
+            self._run(reverse=self._turned(), jog="jogs" in moved.effect.acts)
+        elif kind and not moved and not self.keeps_running:
+            self._obey(BY_ACT[kind], before, [])
+
+    def _turned(self) -> bool:
+        """Whether what is in the command registers turns the motor in reverse."""
+        return any(word.gives("reverses", Held(WORD, self.memory[word.register])) for word in self.table.words)
 
     def _fires(self, move: Move, before: Mapping[int, tuple[int, int]]) -> bool:
         touched = {move.pattern.register}
@@ -341,7 +362,7 @@ class Machine:
     def _move(self, fired: list[Move]) -> None:
         motions = [move for move in fired if move.effect in MOTIONS]
         if motions and not self.fault and not self.inhibited:
-            effect = max(motions, key=lambda move: move.exact).effect
+            effect = motions[0].effect
             self._run(reverse=effect.endswith("reverse"), jog=effect.startswith("jog"))
 
     def _hold(self) -> None:

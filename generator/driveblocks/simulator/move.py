@@ -1,10 +1,11 @@
-"""What a write makes the drive do: commands, and the states on the way to them, read from the map as conditions."""
+"""What a write of the map makes the drive do: commands, and the states on the way to them, as conditions."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from driveblocks.maps.model import Command, Drive, Step
-from driveblocks.meaning.pattern import Pattern, of_write
+from driveblocks.maps.model import Act, Drive
+from driveblocks.meaning.pattern import Pattern
+from driveblocks.meaning.words import Command, Write, words
 
 STATE = "state"
 EFFECTS = (
@@ -13,6 +14,7 @@ EFFECTS = (
 )  # fmt: skip
 """What a move does, those that win over others in the same write first."""
 STOPS = EFFECTS[:4]
+BY_ACT: dict[Act, str] = {"coasts": "coast_stop", "quick_stops": "quick_stop", "stops": "stop", "ends_jog": "jog_stop"}
 MOTIONS = EFFECTS[6:]
 
 
@@ -39,12 +41,6 @@ class Move:
     into: str | None = None
     """The state that it leads to."""
 
-    @property
-    def exact(self) -> int:
-        """How many bits it names: of two motions in one word, that which names more is meant."""
-        levels = (need.pattern.mask for need in self.needs if not need.before)
-        return sum(mask.bit_count() for mask in (self.pattern.mask, *levels))
-
 
 def moves(drive: Drive) -> tuple[Move, ...]:
     """Every move of a map; the states of steps that several commands share only once.
@@ -53,28 +49,26 @@ def moves(drive: Drive) -> tuple[Move, ...]:
     its register contradicts makes an edge or a pulse of it; one that nothing contradicts must still be there.
     A run that a negative reference turns round is no move of its own.
     """
-    found = dict.fromkeys(
-        move for command in drive.operation.commands if not command.negative for move in _path(command)
-    )
+    found = dict.fromkeys(move for command in words(drive).commands if not command.negative for move in _path(command))
     return tuple(sorted(found, key=lambda move: EFFECTS.index(move.effect)))
 
 
 def _path(command: Command) -> Iterator[Move]:
     guard: str | None = None
-    before: list[Step] = []
-    for step in command.first:
+    before: list[Write] = []
+    for step in command.writes[:-1]:
         if step.until is None:
             before.append(step)
             continue
-        pattern = of_write(step)
+        pattern = step.pattern
         yield Move(STATE, pattern, _needs(before, pattern), guard, step.until)
         guard, before = step.until, []
-    pattern = of_write(command)
+    pattern = command.last.pattern
     yield Move(command.does, pattern, _needs(before, pattern), guard)
 
 
-def _needs(steps: list[Step], pattern: Pattern) -> tuple[Need, ...]:
+def _needs(steps: list[Write], pattern: Pattern) -> tuple[Need, ...]:
     """What the last step on each register asks."""
     last = {step.register: step for step in steps}
-    patterns = [(of_write(step), step.for_ms or 0) for step in last.values()]
+    patterns = [(step.pattern, step.for_ms) for step in last.values()]
     return tuple(Need(each, each.excludes(pattern), for_ms) for each, for_ms in patterns)

@@ -12,11 +12,12 @@ from driveblocks.maps.pair import places, whole
 from driveblocks.maps.plan import Words, dialect, most, plan
 from driveblocks.maps.rivals import own_address
 from driveblocks.meaning.measure import measures
-from driveblocks.meaning.pattern import WORD, Pattern, of_write
+from driveblocks.meaning.pattern import WORD, Pattern
 from driveblocks.meaning.quantity import quantity
 from driveblocks.meaning.reference import reference
 from driveblocks.meaning.serial import serial
 from driveblocks.meaning.status import registers, status
+from driveblocks.meaning.words import CommandWord, words
 from driveblocks.modbus.layout import Dialect
 from driveblocks.simulator.copies import Copy, copies, zeros
 from driveblocks.simulator.face import Situation, face, named_bits, situations
@@ -101,6 +102,11 @@ class Table:
     dialect: Dialect
     codes: dict[str, int | None]
     moves: tuple[Move, ...]
+    """What the words of the map's own commands do."""
+    listed: tuple[Pattern, ...]
+    """The words of the map's own commands, and of the steps before them."""
+    words: tuple[CommandWord, ...]
+    """What any word in a command register does, by its bits or its value."""
     silences: tuple[tuple[Pattern, int], ...]
     """Words that make it silent, and for how long, ms."""
     states: tuple[str, ...]
@@ -131,7 +137,7 @@ def table(drive: Drive, habits: Habits, *, ascii_mode: bool = False) -> Table:
     allowed = plan(drive)
     gauges = _gauges(drive, habits)
     measured = frozenset(gauge.register for gauge in gauges)
-    words = most(drive, "ascii" if ascii_mode else "rtu")
+    longest = most(drive, "ascii" if ascii_mode else "rtu")
     broadcast, bits = serial(drive).broadcast, drive.faults.bits
     states = tuple(state.name for state in status(drive).states)
     named = named_bits(drive, measured)
@@ -142,7 +148,7 @@ def table(drive: Drive, habits: Habits, *, ascii_mode: bool = False) -> Table:
     return Table(
         functions=allowed.functions,
         sub_functions=allowed.sub_functions,
-        most=words,
+        most=longest,
         readable=allowed.readable,
         writable=allowed.writable,
         group=drive.limits.group.value if drive.limits.group else 0x10000,
@@ -152,6 +158,8 @@ def table(drive: Drive, habits: Habits, *, ascii_mode: bool = False) -> Table:
         dialect=dialect(drive),
         codes=codes(drive),
         moves=moves(drive),
+        listed=tuple(each.pattern for one in words(drive).commands for each in one.writes),
+        words=words(drive).registers,
         silences=tuple(_silences(drive)),
         states=states,
         named=named,
@@ -172,8 +180,8 @@ def table(drive: Drive, habits: Habits, *, ascii_mode: bool = False) -> Table:
 
 
 def _silences(drive: Drive) -> Iterator[tuple[Pattern, int]]:
-    writes = (one for command in drive.operation.commands for one in command.writes)
-    yield from ((of_write(one), one.silent_ms) for one in writes if one.silent_ms)
+    writes = (one for command in words(drive).commands for one in command.writes)
+    yield from ((one.pattern, one.silent_ms) for one in writes if one.silent_ms)
 
 
 def _warning(drive: Drive) -> tuple[int, int]:
@@ -227,7 +235,7 @@ def _limits(drive: Drive) -> tuple[Limit, ...]:
 
 def _choices(drive: Drive) -> Iterator[Limit]:
     """A command register whose row lists values takes these; between the lowest and the highest of them, any."""
-    for register in dict.fromkeys(command.register for command in drive.operation.commands):
+    for register in dict.fromkeys(command.last.register for command in words(drive).commands):
         row = drive.register_at(register, "w")
         if row and row.values and not row.masks and not row.range:
             listed = [each.value for each in row.values]
@@ -263,8 +271,7 @@ def _around(span: Span, address: int) -> list[Span]:
 def _storage(drive: Drive, writable: tuple[Span, ...]) -> Storage:
     """Parameters are the areas, and writable rows of sections without a command; the rest is never stored."""
     storage = drive.storage
-    told = {*(step.register for command in drive.operation.commands for step in command.first)}
-    told |= {each.register for each in drive.operation.commands} | {*reference(drive).registers}
+    told = {one.register for one in words(drive).registers} | {*reference(drive).registers}
     sections = [each for each in drive.sections if not any(row.address.first in told for row in each.registers)]
     rows = [row.address for section in sections for row in section.registers]
     areas = [area.addresses for area in drive.areas]

@@ -244,3 +244,8 @@ def test_every_request_that_a_drive_takes_is_good(explain: Explain, prefix: str,
     made = explain(prefix, seal("ascii" if asked.ascii else "rtu", built.body).hex())
     assert made.good
     assert "request" in [one.direction for one in made.readings] or drive.errors.form is not None
+
+
+def test_a_word_that_is_no_command_is_said_by_what_its_bits_do(explain: Explain) -> None:
+    made = explain("PF4", rtu("01 06 20 00 00 0A"), rtu("01 06 20 00 00 0A"))
+    assert (0x2000, "command", "starts the motor, by bit 1 `Start` at 1", "") in lines(made)

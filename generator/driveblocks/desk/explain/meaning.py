@@ -7,9 +7,10 @@ from decimal import Decimal
 from driveblocks.maps import view
 from driveblocks.maps.adu import number
 from driveblocks.maps.form import address_text, bits_text
-from driveblocks.maps.model import Area, Bit, Command, Drive, Register, Step, Use, Value
+from driveblocks.maps.model import Area, Bit, Drive, Register, Use, Value
 from driveblocks.meaning.quantity import of_row
 from driveblocks.meaning.status import status
+from driveblocks.meaning.words import words
 
 
 @dataclass(frozen=True)
@@ -175,22 +176,18 @@ def _warning(drive: Drive, row: Register, word: int) -> Iterator[Line]:
 
 
 def _commands(drive: Drive, address: int, word: int) -> Iterator[Line]:
-    for command in drive.operation.commands:
-        does = command.does.replace("_", " ")
-        for turn, step in enumerate(command.first, 1):
-            if _writes(step, address, word):
-                yield Line("command", "", f"{does}, write {turn} of {len(command.first) + 1}", "", None)
-        if _writes(command, address, word):
-            yield Line("command", "", does + " with a negative reference" * command.negative, "", None)
-
-
-def _writes(one: Command | Step, address: int, word: int) -> bool:
-    """Whether a word at an address may be this write."""
-    if one.register != address or one.value is not None:
-        return one.register == address and one.value == word
-    asked = {bit for span in one.set for bit in span}
-    cleared = {bit for span in one.clear for bit in span}
-    return all(word >> bit & 1 for bit in asked) and not any(word >> bit & 1 for bit in cleared)
+    """The commands that a word is; a word that is none, by what its bits or its value do to the motor."""
+    known, found = words(drive), False
+    for command in known.commands:
+        does, many = command.does.replace("_", " "), len(command.writes)
+        for turn, write in enumerate(command.writes, 1):
+            if write.register == address and write.is_in(word):
+                step = f", write {turn} of {many}" * (write is not command.last)
+                found = True
+                yield Line("command", "", does + (step or " with a negative reference" * command.negative), "", None)
+    told = known.at(address)
+    if told and not found and told.says(word):
+        yield Line("command", "", told.says(word), "", None)
 
 
 def _notes(drive: Drive, row: Register, word: int, writing: bool) -> Iterator[str]:

@@ -6,27 +6,26 @@ from collections.abc import Iterator, Mapping
 from driveblocks.maps.form import SPACES, address_text
 from driveblocks.maps.model import Drive
 from driveblocks.maps.plan import write_request
-from driveblocks.meaning.pattern import of_write
+from driveblocks.meaning.words import STOPS, words
 from driveblocks.modbus import frame, layout
 
 READS = frozenset({1, 2, 3, 4, 17})
 IDENTIFIES = b"\x2b\x0e"
 """Function 43 with the type that reads the identification."""
 WRITES = frozenset({6, 16})
-STOPS = frozenset({"stop", "coast_stop", "quick_stop", "jog_stop"})
 
 
 def stops(drive: Drive) -> Iterator[tuple[int, int]]:
     """The register and word, or the coil and its value, of every stop of a map; bits that a stop keeps are 0."""
-    for command in drive.operation.commands:
+    for command in words(drive).commands:
         if command.does in STOPS:
-            yield command.register, of_write(command).value
+            yield command.last.register, command.last.word
 
 
 def stop_request(unit: int, drive: Drive) -> bytes:
     """The stop of a drive as a request without checksum."""
-    command = next(each for each in drive.operation.commands if each.does == "stop")
-    return write_request(unit, drive, command.register, of_write(command).value)
+    last = words(drive).stop.last
+    return write_request(unit, drive, last.register, last.word)
 
 
 def writes(request: layout.Layout) -> tuple[int, int] | None:

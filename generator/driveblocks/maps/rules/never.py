@@ -3,7 +3,7 @@
 from driveblocks.maps.form import address_text, bits_text
 from driveblocks.maps.model import Drive, Never
 from driveblocks.maps.problem import Report
-from driveblocks.maps.rules.path import words
+from driveblocks.meaning.words import words
 
 
 def check(drive: Drive, report: Report) -> None:
@@ -15,17 +15,17 @@ def check(drive: Drive, report: Report) -> None:
             report.miss(row.place("never"), wrong, "remove `never`, or move it to a command register")
         for never in row.never:
             _possible(never, report)
-    for command in drive.operation.commands:
-        for one, found in words(drive, command):
-            target = drive.register_at(one.register, "w")
-            word = sum(1 << number for (register, number), on in found.items() if on and register == one.register)
+    for command in words(drive).commands:
+        for write in command.writes:
+            target = drive.register_at(write.register, "w")
             for never in target.never if target else ():
-                if never.bit and never.holds(word):
-                    where = (
-                        f"{address_text(one.register)}, whose bits {bits_text(never.bit)} must never be {never.equals}"
+                if never.bit and never.holds(write.word):
+                    where = address_text(write.register)
+                    wrong = (
+                        f"`{command.does}` writes {write.word:04X}H to {where}, whose bits {bits_text(never.bit)} must "
+                        f"never be {never.equals}: {never.why}"
                     )
-                    wrong = f"`{command.does}` writes {word:04X}H to {where}: {never.why}"
-                    report.add(one.at, wrong, "correct the command, or `never`")
+                    report.add(write.at, wrong, "correct the command, or `never`")
 
 
 def _possible(never: Never, report: Report) -> None:

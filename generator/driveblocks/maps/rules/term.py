@@ -1,24 +1,16 @@
-"""What a name means for the motion: the field's terms for running, stopping and resetting, all in this one table."""
+"""What the name of a status, a measure or a reaction means: the field's terms, all in this one table."""
 
 import re
 
 Meaning = frozenset[str]
 
-FORWARD, REVERSE, RUN, JOG = "forward", "reverse", "run", "jog"
-STOP, COAST, QUICK, RESET = "stop", "coast", "quick", "reset"
+RUN, STOP, COAST, QUICK = "run", "stop", "coast", "quick"
 
 _TERMS: dict[str, tuple[str, ...]] = {
-    FORWARD: ("forward", "fwd", "clockwise", "cw", "正转", "正向", "正传", "顺时针", "前进"),
-    REVERSE: (
-        *("reverse", "reversing", "reversal", "rev", "backward", "counterclockwise", "counter-clockwise"),
-        *("anticlockwise", "anti-clockwise", "ccw", "反转", "反向", "反传", "逆转", "逆时针", "后退"),
-    ),
     RUN: ("run", "start", "turn", "rotat", "move", "运行", "运转", "启动", "起动", "旋转"),
-    JOG: ("jog", "inch", "creep", "crawl", "点动", "寸动"),
     STOP: ("stop", "halt", "off", "ramp down", "ramp to zero", "停", "急停"),
     COAST: ("coast", "free", "freewheel", "enable voltage", "voltage enable", "自由", "惯性"),
     QUICK: ("quick", "fast", "rapid", "emergency", "快速", "迅速", "紧急", "急停"),
-    RESET: ("reset", "clear", "acknowledge", "ack", "复位", "清除", "消除"),
 }
 _STANDING = ("stopped", "standby", "standstill", "待机", "停")
 _MINOR = ("warning", "minor", "轻故障", "预警")
@@ -73,7 +65,7 @@ def _pattern() -> re.Pattern[str]:
 
 
 def _part(term: str) -> str:
-    whole = r"\b" if term in ("cw", "ccw", "rev", "ack", "off", "inch") else ""
+    whole = r"\b" if term == "off" else ""
     return rf"\b{term}{whole}" if term.isascii() else term
 
 

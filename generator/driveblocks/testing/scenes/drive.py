@@ -318,10 +318,10 @@ def _proof(drive: Drive) -> Context:
 
 
 def _weight(move: Move) -> tuple[int, int]:
-    """Their order: of two stops the weaker first, of two motions that which names fewer bits; the last one counts."""
+    """Their order: of two stops the weaker first, motions behind all; the last one counts."""
     if move.effect in STOPS:
         return (0, -STOPS.index(move.effect))
-    return (1 + (move.effect in MOTIONS), move.exact)
+    return (1 + (move.effect in MOTIONS), 0)
 
 
 def _move(move: Move, at: dict[int, int], made: Table) -> Context:

@@ -7,15 +7,14 @@ from collections.abc import Iterator
 from typing import Any
 
 from driveblocks.maps.form import is_bit
-from driveblocks.maps.model import Command, Drive
+from driveblocks.maps.model import Drive
 from driveblocks.maps.polls import fast_words, other_words, polls, schedule, slow_words
-from driveblocks.meaning.pattern import of_write
 from driveblocks.meaning.reference import reference
 from driveblocks.meaning.roles import roles
 from driveblocks.meaning.status import status
+from driveblocks.meaning.words import MOTIONS, Command, words
 from driveblocks.modbus.layout import COIL_ON
 from driveblocks.reference.naming import word_pin
-from driveblocks.simulator.move import MOTIONS
 from driveblocks.testing.scenes.drive import KINDS, ORDERS
 from driveblocks.testing.scenes.scene import Shows
 from structured_text.language.writing import word
@@ -196,16 +195,16 @@ def _reads_of(drive: Drive) -> dict[str, set[int]]:
 def _orders(drive: Drive) -> Iterator[Row]:
     """Each write of each command; what is no command is a stop."""
     numbers = KINDS | ORDERS | {"fault_reset": 9}
-    known = {one.does: one for one in drive.operation.commands}
+    known = {one.does: one for one in words(drive).commands}
     several = _several(drive)
     none = ["none", {"Order": 0}, _write(known["stop"], 0, several=several)]
     yield none
     for does, one in known.items():
         for step in range(len(one.writes)):
-            words = does.replace("_", " ") + (f", write {step + 1}" if one.first else "")
+            called = does.replace("_", " ") + (f", write {step + 1}" if len(one.writes) > 1 else "")
             number = {"StepNumber": step} if several else {}
             shown = _write(one, step, several=several) | _awaited(drive, one, step)
-            yield [words, {"Order": numbers[does]} | number, shown]
+            yield [called, {"Order": numbers[does]} | number, shown]
             yield none
     speed = reference(drive)
     shows: Shows = {f"{_ASK}.Address": word(speed.register), f"{_ASK}.Words[0]": word(0x1234), "Moves": False}
@@ -217,14 +216,14 @@ def _orders(drive: Drive) -> Iterator[Row]:
 
 
 def _several(drive: Drive) -> bool:
-    return any(one.first for one in drive.operation.commands)
+    return any(len(one.writes) > 1 for one in words(drive).commands)
 
 
 def _awaited(drive: Drive, one: Command, step: int) -> Shows:
     """The state that the write after this one waits for; nothing is said where the block has no such outputs."""
-    if not any(step.until for command in drive.operation.commands for step in command.first):
+    if not any(write.until for command in words(drive).commands for write in command.writes):
         return {}
-    until = one.first[step].until if step < len(one.first) else None
+    until = one.writes[step].until
     state = next((each.pattern for each in status(drive).states if each.name == until), None)
     if state is None:
         return {"Awaits": False}
@@ -232,16 +231,13 @@ def _awaited(drive: Drive, one: Command, step: int) -> Shows:
 
 
 def _write(one: Command, step: int, *, several: bool) -> Shows:
-    write, last = one.writes[step], step == len(one.first)
-    pattern = of_write(write)
-    value = f"({_ASK}.Words[0] AND {word(pattern.mask)})"
+    write = one.writes[step]
+    value = f"({_ASK}.Words[0] AND {word(write.names)})"
+    sent = write.word & write.names
     found: Shows = {
-        f"{_ASK}.Address": word(pattern.register),
-        value: word(COIL_ON * pattern.value if is_bit(pattern.register) else pattern.value),
-        "Moves": last and one.does in MOTIONS,
+        f"{_ASK}.Address": word(write.register),
+        value: word(COIL_ON * sent if is_bit(write.register) else sent),
+        "Moves": write is one.last and one.does in MOTIONS,
     }
-    more: Shows = {
-        "Last": len(one.first),
-        "HoldMs": 0 if last else max(one.first[step].for_ms or 0, one.first[step].silent_ms or 0),
-    }
+    more: Shows = {"Last": len(one.writes) - 1, "HoldMs": write.stays_ms}
     return found | (more if several else {})
