@@ -20,10 +20,11 @@ from driveblocks.maps.model import Command, Condition, Does, Drive, Step
 from driveblocks.maps.plan import plan, reply_delay
 from driveblocks.maps.polls import polls
 from driveblocks.maps.problem import Report
+from driveblocks.meaning.pattern import Pattern
 from driveblocks.output import units as tested
 from driveblocks.reference.permission import Judge, Write
 from driveblocks.render.context import kept
-from driveblocks.render.drive import Masked, drive_block
+from driveblocks.render.drive import drive_block
 from driveblocks.render.library import drive as library_of
 from driveblocks.render.library import generic
 from driveblocks.render.text import languages
@@ -323,7 +324,7 @@ def test_the_templates_get_what_the_drive_says_of_itself_or_nothing() -> None:
     assert maximum.scale
     (plate,) = identity.reads
     assert (plate.function, plate.address, plate.words) == (3, 0x2003, 1)
-    assert plate.tests == [Masked(0, 0xFFFF, 0x0312)]
+    assert plate.tests == (Pattern(0x2003, 0xFFFF, 0x0312),)
     assert identity.plate
     assert (bus.holds, block.reading.roles.by_bus) == (["DriveStatusBits.Remote"], (1,))
     assert (maximum.word.address, maximum.scale) == (0x2004, Decimal("0.1"))
@@ -353,7 +354,7 @@ def test_an_identity_of_several_bits_is_one_read() -> None:
     assert identity
     (plate,) = identity.reads
     assert (plate.address, plate.words) == (0x2003, 2)
-    assert plate.tests == [Masked(1, 0x00F0, 0x0090), Masked(0, 0xFF00, 0x0300)]
+    assert plate.tests == (Pattern(0x2004, 0x00F0, 0x0090), Pattern(0x2003, 0xFF00, 0x0300))
 
 
 def test_explain_knows_a_write_on_the_way_and_a_mask(tmp_path: Path) -> None:

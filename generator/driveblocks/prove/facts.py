@@ -7,12 +7,11 @@ from collections.abc import Iterable, Iterator, Mapping
 
 from driveblocks.maps.form import is_bit
 from driveblocks.maps.model import Command, Drive, Step
-from driveblocks.maps.plan import writes_by
+from driveblocks.maps.plan import busy, writes_by
 from driveblocks.maps.polls import Poll, fast_words, fault_words, polls, schedule, slow_words
 from driveblocks.maps.revision import checked
 from driveblocks.maps.rivals import first_reads, refusals
 from driveblocks.maps.trust import second_hand
-from driveblocks.maps.view import error_number
 from driveblocks.meaning.measure import PINS, Measure, measures, own_maximum
 from driveblocks.meaning.pattern import Pattern, bits_of
 from driveblocks.meaning.reference import reference
@@ -22,14 +21,11 @@ from driveblocks.meaning.status import status
 from driveblocks.modbus.layout import COIL_ON
 from driveblocks.render.context import word_input
 from driveblocks.render.decoded import Decoded
-from driveblocks.render.drive import STATUS
+from driveblocks.render.drive import CONSTANTS, STATUS
+from driveblocks.simulator.move import MOTIONS, STOPS
 from structured_text.language.writing import word
 
-MOTIONS = ("run_forward", "run_reverse", "jog_forward", "jog_reverse")
-STOPS = ("stop", "quick_stop", "coast_stop", "jog_stop")
-SENT = dict(
-    zip((*MOTIONS, "fault_reset"), ("GO_FORWARD", "GO_REVERSE", "JOG_AHEAD", "JOG_BACK", "RESET_FAULT"), strict=True)
-)
+SENT = {does: CONSTANTS[does] for does in (*MOTIONS, "fault_reset")}
 """What the control calls a command."""
 ALL, SIGN = 0xFFFF, 0x8000
 BELIEVED = "NOT Doubtful AND (Surplus = Was.SurplusSeen)"
@@ -235,21 +231,19 @@ def _shown(drive: Drive) -> dict[str, str]:
     """That the pins show what the map says of the words that were read, and what is handed to the line."""
     said, pins = [], []
     dialect = refusals(drive)
-    busy = next((error_number(one) or 0 for one in drive.errors.codes if one.busy), 0)
     shows = status(drive)
     for one in shows.shown:
         holds = _any(_holds(drive, each) for each in one.patterns)
         said.append(f"({_any(Decoded(drive).holds(each) for each in one.patterns)}) = ({holds})")
         if one.name in STATUS:
             pins.append(f"{STATUS[one.name]} = ({'Running AND ' * (one.name == 'at_speed')}({holds}))")
-    tolerant = any(each.kind == "two_byte_count" for each in drive.tolerances)
     told = [
-        f"Slot.TwoByteCount = {tolerant}".upper(),
+        f"Slot.TwoByteCount = {dialect.two_byte_count}".upper(),
         f"Slot.SilenceMs = {int(serial(drive).silence_ms)}",
         f"Slot.ExceptionAdd = {dialect.add}",
         f"Slot.ErrorFunction = {dialect.function or 0}",
         f"Slot.ErrorAddress = {word(dialect.address or 0)}",
-        f"Slot.BusyReason = {busy}",
+        f"Slot.BusyReason = {busy(drive)}",
     ]
     ready = [_holds(drive, each) for each in shows.shows("ready")]
     verify = [(Decoded(drive).holds(each), _holds(drive, each)) for each in shows.verify]
