@@ -17,10 +17,11 @@ from driveblocks.maps import check
 from driveblocks.maps.collection import Source
 from driveblocks.maps.form import Span
 from driveblocks.maps.model import Command, Condition, Does, Drive, Step
-from driveblocks.maps.plan import plan, reply_delay
+from driveblocks.maps.plan import plan
 from driveblocks.maps.polls import polls
 from driveblocks.maps.problem import Report
 from driveblocks.meaning.pattern import Pattern
+from driveblocks.meaning.serial import serial
 from driveblocks.output import units as tested
 from driveblocks.reference.permission import Judge, Write
 from driveblocks.render.context import kept
@@ -140,7 +141,7 @@ def test_a_start_pulse_is_cleared_by_the_stop() -> None:
 def test_a_fault_is_shown_by_any_code_but_0(tmp_path: Path) -> None:
     said = drive_block(shapes()["packed"]).showing.says["fault"]
     assert said == ["((Reads.PresentFaultWord AND WORD#16#FF00) <> WORD#16#0000)"]
-    assert "fault 2002H bit 8-F <> 0 (table 2)" in " ".join(run("packed", tmp_path, "show", "MAP").split())
+    assert "fault 2002H bits 8-F <> 0 (table 2)" in " ".join(run("packed", tmp_path, "show", "MAP").split())
     plain = replace(shapes()["packed"].operation, status=(replace(FAULT, any=(replace(FAULT.any[0], bit=None),)),))
     said = drive_block(replace(shapes()["packed"], operation=plain)).showing.says["fault"]
     assert said == ["(Reads.PresentFaultWord <> WORD#16#0000)"]
@@ -248,8 +249,10 @@ def test_no_request_crosses_a_group(tmp_path: Path) -> None:
 
 
 def test_a_setting_lets_the_drive_answer_later(tmp_path: Path) -> None:
-    assert reply_delay(shapes()["pulse"]) == (30, 500)
-    assert reply_delay(shapes()["packed"]) == (None, None)
+    delay = serial(shapes()["pulse"]).delay
+    assert delay
+    assert (delay.factory_ms, delay.most_ms) == (30, 500)
+    assert serial(shapes()["packed"]).delay is None
     assert "by P3.06, 30 ms as delivered, 500 ms at most" in run("pulse", tmp_path, "show", "MAP", "serial")
     assert "begin after 30 ms" in run("pulse", tmp_path, "line", "MAP")
     assert "begin after 7 ms" in run("pulse", tmp_path, "line", "MAP", "--reply", "7ms")

@@ -1,10 +1,8 @@
 """What a drive allows on the wire, derived from its map: words per frame, readable and writable addresses."""
 
-import re
 import struct
 from collections.abc import Iterable
 from dataclasses import dataclass
-from math import ceil
 
 from driveblocks.maps.form import SPACES, Span, space_of, wire
 from driveblocks.maps.model import Drive, Limit, kept
@@ -151,18 +149,6 @@ def _grouped(drive: Drive, spans: tuple[Span, ...]) -> tuple[Span, ...]:
         for span in spans
         for start in range(span.first - span.first % size, span.last + 1, size)
     )
-
-
-def reply_delay(drive: Drive) -> tuple[int | None, int | None]:
-    """How much later the drive answers by its setting, as delivered and at most, ms; None: the manual does not say."""
-    delay = drive.serial.reply_delay
-    setting = next((each for each in drive.settings if delay and each.id == delay.setting), None)
-    if delay is None or setting is None:
-        return None, None
-    said = re.match("[0-9]{1,9}", setting.default or "")
-    counts = (int(said[0]) if said else None, setting.range.max if setting.range else None)
-    factory, most = (None if each is None else ceil(each * delay.milliseconds) for each in counts)
-    return factory, most
 
 
 def dialect(drive: Drive) -> Dialect:

@@ -29,6 +29,7 @@ from driveblocks.meaning.reference import Reference, reference
 from driveblocks.meaning.roles import Roles, roles
 from driveblocks.meaning.serial import Serial, serial
 from driveblocks.meaning.status import Patterns, Sign, status
+from driveblocks.meaning.watchdog import feeds
 from driveblocks.modbus.checksum import crc16
 from driveblocks.modbus.layout import COIL_ON, Dialect
 from driveblocks.render import context
@@ -388,7 +389,7 @@ def _own(drive: Drive) -> Own:
         busy=busy(drive),
         second_hand=second_hand(drive),
         checked=checked(drive),
-        feeds=drive.watchdog.feeds if drive.watchdog else None,
+        feeds=feeds(drive),
     )
 
 
