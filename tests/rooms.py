@@ -29,9 +29,15 @@ def imports(path: Path, known: dict[str, Path]) -> Iterator[str]:
             yield from (name if name in known else node.module for name in named)
 
 
+CHECKED = ("check", "collection", "load", "rivals", "rules")
+"""What of `maps` stands above `meaning`: the rules of a map ask it, and what is loaded is checked by them."""
+
+
 def room(module: str) -> str:
     """The folder or file of `driveblocks` that a module is in; `driveblocks` itself, `structured_text` as a whole."""
     package, *rest = module.split(".")
+    if package == "driveblocks" and rest[:1] == ["maps"] and rest[1:2] and rest[1] in CHECKED:
+        return "checked maps"
     return rest[0] if package == "driveblocks" and rest else package
 
 

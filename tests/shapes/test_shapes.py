@@ -18,9 +18,9 @@ from driveblocks.maps.collection import Source
 from driveblocks.maps.form import Span
 from driveblocks.maps.model import Command, Condition, Does, Drive, Step
 from driveblocks.maps.plan import plan
-from driveblocks.maps.polls import polls
 from driveblocks.maps.problem import Report
 from driveblocks.meaning.pattern import Pattern
+from driveblocks.meaning.polls import polls
 from driveblocks.meaning.serial import serial
 from driveblocks.output import units as tested
 from driveblocks.reference.permission import Judge, Write

@@ -12,9 +12,9 @@ from driveblocks.docs.pins import Pin, pins
 from driveblocks.maps import inventory, rivals, trust
 from driveblocks.maps.form import address_text
 from driveblocks.maps.model import Absence, Drive, Erratum, Notice, Setting
-from driveblocks.maps.polls import Poll, polls, schedule, wire_ms
 from driveblocks.meaning import conduct
 from driveblocks.meaning.measure import PINS
+from driveblocks.meaning.polls import Poll, polls, schedule, wire_ms
 from driveblocks.meaning.reference import reference
 from driveblocks.meaning.serial import serial
 from driveblocks.meaning.status import status

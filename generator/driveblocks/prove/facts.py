@@ -8,12 +8,12 @@ from collections.abc import Iterable, Iterator, Mapping
 from driveblocks.maps.form import is_bit
 from driveblocks.maps.model import Command, Drive, Step
 from driveblocks.maps.plan import busy, writes_by
-from driveblocks.maps.polls import Poll, fast_words, fault_words, polls, schedule, slow_words
 from driveblocks.maps.revision import checked
 from driveblocks.maps.rivals import first_reads, refusals
 from driveblocks.maps.trust import second_hand
 from driveblocks.meaning.measure import PINS, Measure, measures, own_maximum
 from driveblocks.meaning.pattern import Pattern, bits_of
+from driveblocks.meaning.polls import Poll, fast_words, fault_words, polls, schedule, slow_words
 from driveblocks.meaning.reference import reference
 from driveblocks.meaning.roles import roles
 from driveblocks.meaning.serial import serial

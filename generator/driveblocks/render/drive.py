@@ -11,7 +11,12 @@ from driveblocks.maps import names
 from driveblocks.maps.form import address_text, is_bit
 from driveblocks.maps.model import Command, Drive, kept
 from driveblocks.maps.plan import busy, writes_by
-from driveblocks.maps.polls import (
+from driveblocks.maps.revision import checked
+from driveblocks.maps.rivals import First, first_reads, refusals
+from driveblocks.maps.trust import second_hand
+from driveblocks.meaning.measure import PINS, Measure, measures, own_maximum
+from driveblocks.meaning.pattern import Pattern, bits_of
+from driveblocks.meaning.polls import (
     Poll,
     fast_words,
     meaning_words,
@@ -20,11 +25,6 @@ from driveblocks.maps.polls import (
     schedule,
     slow_words,
 )
-from driveblocks.maps.revision import checked
-from driveblocks.maps.rivals import First, first_reads, refusals
-from driveblocks.maps.trust import second_hand
-from driveblocks.meaning.measure import PINS, Measure, measures, own_maximum
-from driveblocks.meaning.pattern import Pattern, bits_of
 from driveblocks.meaning.reference import Reference, reference
 from driveblocks.meaning.roles import Roles, roles
 from driveblocks.meaning.serial import Serial, serial

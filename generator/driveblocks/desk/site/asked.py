@@ -15,8 +15,8 @@ from driveblocks.desk.words import time
 from driveblocks.maps import catalog
 from driveblocks.maps.collection import Source
 from driveblocks.maps.plan import writes_by
-from driveblocks.maps.polls import Poll, polls
 from driveblocks.maps.problem import Refused
+from driveblocks.meaning.polls import Poll, polls
 from driveblocks.meaning.serial import FORMS, USUAL_BITS, USUAL_RATE, character, delivered, serial
 from structured_text import files
 from structured_text.engines.embedded.library import EmbeddedInstance

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from math import ceil
 
 from driveblocks.maps.model import Drive
-from driveblocks.maps.polls import REPLY, REQUEST, WORD, Poll, schedule
+from driveblocks.meaning.polls import REPLY, REQUEST, WORD, Poll, schedule
 from driveblocks.meaning.serial import serial
 from driveblocks.meaning.watchdog import feeds
 from structured_text.engines.embedded import EmbeddedInstance, EmbeddedLibrary

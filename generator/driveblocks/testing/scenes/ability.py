@@ -4,8 +4,8 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from driveblocks.maps.model import Drive
-from driveblocks.maps.polls import meaning_words, polls
 from driveblocks.meaning.measure import measures
+from driveblocks.meaning.polls import meaning_words, polls
 from driveblocks.meaning.status import status
 from driveblocks.meaning.watchdog import feeds
 from driveblocks.simulator.move import MOTIONS
