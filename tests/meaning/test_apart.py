@@ -12,8 +12,9 @@ from driveblocks.meaning.reference import reference
 from driveblocks.meaning.roles import roles
 from driveblocks.meaning.serial import serial
 from driveblocks.meaning.status import status
+from driveblocks.meaning.watchdog import watchdog
 
-MEANINGS = (serial, status, roles, measures, own_maximum, reference)
+MEANINGS = (serial, status, roles, measures, own_maximum, reference, watchdog)
 
 
 def held(value: Any, path: str) -> Iterator[tuple[str, Any]]:

@@ -17,13 +17,15 @@ from driveblocks.maps import check
 from driveblocks.maps.collection import Source
 from driveblocks.maps.form import Span
 from driveblocks.maps.model import Command, Condition, Does, Drive, Step
-from driveblocks.maps.plan import plan, reply_delay
-from driveblocks.maps.polls import polls
+from driveblocks.maps.plan import plan
 from driveblocks.maps.problem import Report
+from driveblocks.meaning.pattern import Pattern
+from driveblocks.meaning.polls import polls
+from driveblocks.meaning.serial import serial
 from driveblocks.output import units as tested
 from driveblocks.reference.permission import Judge, Write
 from driveblocks.render.context import kept
-from driveblocks.render.drive import Masked, drive_block
+from driveblocks.render.drive import drive_block
 from driveblocks.render.library import drive as library_of
 from driveblocks.render.library import generic
 from driveblocks.render.text import languages
@@ -132,7 +134,7 @@ def test_a_stop_that_forgets_an_active_low_bit_is_refused() -> None:
 def test_a_fault_is_shown_by_any_code_but_0(tmp_path: Path) -> None:
     said = drive_block(shapes()["packed"]).showing.says["fault"]
     assert said == ["((Reads.PresentFaultWord AND WORD#16#FF00) <> WORD#16#0000)"]
-    assert "fault 2002H bit 8-F <> 0 (table 2)" in " ".join(run("packed", tmp_path, "show", "MAP").split())
+    assert "fault 2002H bits 8-F <> 0 (table 2)" in " ".join(run("packed", tmp_path, "show", "MAP").split())
     plain = replace(shapes()["packed"].operation, status=(replace(FAULT, any=(replace(FAULT.any[0], bit=None),)),))
     said = drive_block(replace(shapes()["packed"], operation=plain)).showing.says["fault"]
     assert said == ["(Reads.PresentFaultWord <> WORD#16#0000)"]
@@ -240,8 +242,10 @@ def test_no_request_crosses_a_group(tmp_path: Path) -> None:
 
 
 def test_a_setting_lets_the_drive_answer_later(tmp_path: Path) -> None:
-    assert reply_delay(shapes()["pulse"]) == (30, 500)
-    assert reply_delay(shapes()["packed"]) == (None, None)
+    delay = serial(shapes()["pulse"]).delay
+    assert delay
+    assert (delay.factory_ms, delay.most_ms) == (30, 500)
+    assert serial(shapes()["packed"]).delay is None
     assert "by P3.06, 30 ms as delivered, 500 ms at most" in run("pulse", tmp_path, "show", "MAP", "serial")
     assert "begin after 30 ms" in run("pulse", tmp_path, "line", "MAP")
     assert "begin after 7 ms" in run("pulse", tmp_path, "line", "MAP", "--reply", "7ms")
@@ -316,7 +320,7 @@ def test_the_templates_get_what_the_drive_says_of_itself_or_nothing() -> None:
     assert maximum.scale
     (plate,) = identity.reads
     assert (plate.function, plate.address, plate.words) == (3, 0x2003, 1)
-    assert plate.tests == [Masked(0, 0xFFFF, 0x0312)]
+    assert plate.tests == (Pattern(0x2003, 0xFFFF, 0x0312),)
     assert identity.plate
     assert (bus.holds, block.reading.roles.by_bus) == (["DriveStatusBits.Remote"], (1,))
     assert (maximum.word.address, maximum.scale) == (0x2004, Decimal("0.1"))
@@ -346,7 +350,7 @@ def test_an_identity_of_several_bits_is_one_read() -> None:
     assert identity
     (plate,) = identity.reads
     assert (plate.address, plate.words) == (0x2003, 2)
-    assert plate.tests == [Masked(1, 0x00F0, 0x0090), Masked(0, 0xFF00, 0x0300)]
+    assert plate.tests == (Pattern(0x2004, 0x00F0, 0x0090), Pattern(0x2003, 0xFF00, 0x0300))
 
 
 def test_explain_knows_a_write_on_the_way_and_a_mask(tmp_path: Path) -> None:

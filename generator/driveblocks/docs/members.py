@@ -5,9 +5,9 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from driveblocks.docs.pins import SCALES, unit_of
-from driveblocks.maps.conduct import reply_delay
 from driveblocks.maps.form import address_text
 from driveblocks.maps.model import Drive
+from driveblocks.meaning.conduct import reply_delay
 from driveblocks.meaning.measure import PINS
 from driveblocks.meaning.reference import reference
 from driveblocks.meaning.status import status

@@ -9,14 +9,16 @@ from typing import Any
 from driveblocks.docs import bus, chain, ladder, network, states, sto, timing
 from driveblocks.docs.members import members
 from driveblocks.docs.pins import Pin, pins
-from driveblocks.maps import conduct, inventory, plan, rivals, trust
+from driveblocks.maps import inventory, rivals, trust
 from driveblocks.maps.form import address_text
 from driveblocks.maps.model import Absence, Drive, Erratum, Notice, Setting
-from driveblocks.maps.polls import Poll, polls, schedule, wire_ms
+from driveblocks.meaning import conduct
 from driveblocks.meaning.measure import PINS
+from driveblocks.meaning.polls import Poll, polls, schedule, wire_ms
 from driveblocks.meaning.reference import reference
 from driveblocks.meaning.serial import serial
 from driveblocks.meaning.status import status
+from driveblocks.meaning.watchdog import feeds, watchdog
 from driveblocks.platforms import CANONICAL, EXPORTS, PLATFORMS, cost
 from driveblocks.platforms.ladder import diagram
 from driveblocks.platforms.part import Part
@@ -171,13 +173,13 @@ def families(files: list[File], drives: list[Drive], checked: Checked, platforms
 
 def _turns_on(drive: Drive) -> str:
     """How long a motor turns on without the line, by the drive's own watchdog."""
-    time = drive.watchdog.time if drive.watchdog else None
+    own = watchdog(drive)
+    time = own.time if own else None
     if time is None or time.setting is None:
-        return "not known" if drive.watchdog is None else "its watchdog, of unknown time"
-    row = next((one for one in drive.settings if one.id == time.setting), None)
-    if row is None or row.range is None:
+        return "its watchdog, of unknown time" if own else "not known"
+    if time.least_ms is None or time.most_ms is None:
         return f"as `{time.setting}` says"
-    least, most = (number * time.milliseconds / 1000 for number in (row.range.min, row.range.max))
+    least, most = (each / 1000 for each in (time.least_ms, time.most_ms))
     return f"{least.normalize():f} to {most.normalize():f} s, `{time.setting}`"
 
 
@@ -295,11 +297,11 @@ def _page(drive: Drive, checked: Checked, values: Mapping[str, Any], own: Own, p
         derived=_guessed(drive),
         status=status(drive),
         conduct=_conduct(drive),
-        feeds=drive.watchdog.feeds if drive.watchdog else None,
+        feeds=feeds(drive),
         proved_tripped=timing.proves_while_tripped(drive),
         states=STATES,
         turn_round=_turn_round(drive),
-        delayed=plan.reply_delay(drive)[0] == _turn_round(drive) and drive.serial.reply_delay,
+        delayed=serial(drive).delay_ms == _turn_round(drive) and serial(drive).delay,
         **vars(motor(drive)),
         **values,
     )
@@ -423,7 +425,7 @@ def _reads(drive: Drive) -> Iterator[Read]:
 
 def _turn_round(drive: Drive) -> int:
     """What a drive as delivered takes to answer, ms, as far as it is known."""
-    return max(TURN_ROUND_MS, plan.reply_delay(drive)[0] or 0)
+    return max(TURN_ROUND_MS, serial(drive).delay_ms)
 
 
 def _silence(drive: Drive) -> float | None:

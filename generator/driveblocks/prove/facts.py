@@ -7,14 +7,13 @@ from collections.abc import Iterable, Iterator, Mapping
 
 from driveblocks.maps.form import is_bit
 from driveblocks.maps.model import Does, Drive
-from driveblocks.maps.plan import writes_by
-from driveblocks.maps.polls import Poll, fast_words, fault_words, polls, schedule, slow_words
+from driveblocks.maps.plan import busy, writes_by
 from driveblocks.maps.revision import checked
 from driveblocks.maps.rivals import first_reads, refusals
 from driveblocks.maps.trust import second_hand
-from driveblocks.maps.view import error_number
 from driveblocks.meaning.measure import PINS, Measure, measures, own_maximum
 from driveblocks.meaning.pattern import Pattern
+from driveblocks.meaning.polls import Poll, fast_words, fault_words, polls, schedule, slow_words
 from driveblocks.meaning.reference import reference
 from driveblocks.meaning.roles import roles
 from driveblocks.meaning.serial import serial
@@ -23,12 +22,10 @@ from driveblocks.meaning.words import MOTIONS, STOPS, Command, words
 from driveblocks.modbus.layout import COIL_ON
 from driveblocks.render.context import word_input
 from driveblocks.render.decoded import Decoded
-from driveblocks.render.drive import STATUS
+from driveblocks.render.drive import CONSTANTS, STATUS
 from structured_text.language.writing import word
 
-SENT = dict(
-    zip((*MOTIONS, "fault_reset"), ("GO_FORWARD", "GO_REVERSE", "JOG_AHEAD", "JOG_BACK", "RESET_FAULT"), strict=True)
-)
+SENT = {does: CONSTANTS[does] for does in (*MOTIONS, "fault_reset")}
 """What the control calls a command."""
 ALL, SIGN = 0xFFFF, 0x8000
 BELIEVED = "NOT Doubtful AND (Surplus = Was.SurplusSeen)"
@@ -221,21 +218,19 @@ def _shown(drive: Drive) -> dict[str, str]:
     """That the pins show what the map says of the words that were read, and what is handed to the line."""
     said, pins = [], []
     dialect = refusals(drive)
-    busy = next((error_number(one) or 0 for one in drive.errors.codes if one.busy), 0)
     shows = status(drive)
     for one in shows.shown:
         holds = _any(_holds(drive, each) for each in one.patterns)
         said.append(f"({_any(Decoded(drive).holds(each) for each in one.patterns)}) = ({holds})")
         if one.name in STATUS:
             pins.append(f"{STATUS[one.name]} = ({'Running AND ' * (one.name == 'at_speed')}({holds}))")
-    tolerant = any(each.kind == "two_byte_count" for each in drive.tolerances)
     told = [
-        f"Slot.TwoByteCount = {tolerant}".upper(),
+        f"Slot.TwoByteCount = {dialect.two_byte_count}".upper(),
         f"Slot.SilenceMs = {int(serial(drive).silence_ms)}",
         f"Slot.ExceptionAdd = {dialect.add}",
         f"Slot.ErrorFunction = {dialect.function or 0}",
         f"Slot.ErrorAddress = {word(dialect.address or 0)}",
-        f"Slot.BusyReason = {busy}",
+        f"Slot.BusyReason = {busy(drive)}",
     ]
     ready = [_holds(drive, each) for each in shows.shows("ready")]
     verify = [(Decoded(drive).holds(each), _holds(drive, each)) for each in shows.verify]

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 from driveblocks.maps.model import Drive
-from driveblocks.maps.polls import Poll
+from driveblocks.meaning.polls import Poll
 from driveblocks.meaning.words import words
 from driveblocks.render import context
 from driveblocks.render.context import Word

@@ -10,8 +10,13 @@ from operator import or_
 from driveblocks.maps import names
 from driveblocks.maps.form import address_text, is_bit
 from driveblocks.maps.model import Drive, kept
-from driveblocks.maps.plan import writes_by
-from driveblocks.maps.polls import (
+from driveblocks.maps.plan import busy, writes_by
+from driveblocks.maps.revision import checked
+from driveblocks.maps.rivals import First, first_reads, refusals
+from driveblocks.maps.trust import second_hand
+from driveblocks.meaning.measure import PINS, Measure, measures, own_maximum
+from driveblocks.meaning.pattern import Pattern, bits_of
+from driveblocks.meaning.polls import (
     Poll,
     fast_words,
     meaning_words,
@@ -20,16 +25,11 @@ from driveblocks.maps.polls import (
     schedule,
     slow_words,
 )
-from driveblocks.maps.revision import checked
-from driveblocks.maps.rivals import First, first_reads, refusals
-from driveblocks.maps.trust import second_hand
-from driveblocks.maps.view import error_number
-from driveblocks.meaning.measure import PINS, Measure, measures, own_maximum
-from driveblocks.meaning.pattern import Pattern, bits_of
 from driveblocks.meaning.reference import Reference, reference
 from driveblocks.meaning.roles import Roles, roles
 from driveblocks.meaning.serial import Serial, serial
-from driveblocks.meaning.status import Sign, status
+from driveblocks.meaning.status import Patterns, Sign, status
+from driveblocks.meaning.watchdog import feeds
 from driveblocks.meaning.words import Command, words
 from driveblocks.modbus.checksum import crc16
 from driveblocks.modbus.layout import COIL_ON, Dialect
@@ -106,15 +106,6 @@ class Read:
 
 
 @dataclass(frozen=True)
-class Masked:
-    """A word of the identity by its place in the read, the bits that count and what they must be."""
-
-    index: int
-    mask: int
-    value: int
-
-
-@dataclass(frozen=True)
 class Shown:
     """A read that shows the family: see `rivals.First`; `plate` is an identity of the map, by its tests."""
 
@@ -124,7 +115,7 @@ class Shown:
     shows: str
     values: tuple[int, ...]
     mask: int
-    tests: list[Masked]
+    tests: Patterns
 
 
 @dataclass(frozen=True)
@@ -280,9 +271,7 @@ class Own:
     family_number: int
     serial: Serial
     dialect: Dialect
-    two_byte_count: bool
     busy: int
-    silence: int
     second_hand: bool
     checked: int
     feeds: str | None
@@ -391,24 +380,17 @@ def family_number(prefix: str) -> int:
 
 
 def _own(drive: Drive) -> Own:
-    reply = context.reply(drive)
     return Own(
         source=context.source_of(drive, words(drive).stop.source),
         prefix=drive.prefix,
         family_number=family_number(drive.prefix),
         serial=serial(drive),
         dialect=refusals(drive),
-        two_byte_count=reply.two_byte_count,
-        busy=_busy(drive),
-        silence=int(serial(drive).silence_ms),
+        busy=busy(drive),
         second_hand=second_hand(drive),
         checked=checked(drive),
-        feeds=drive.watchdog.feeds if drive.watchdog else None,
+        feeds=feeds(drive),
     )
-
-
-def _busy(drive: Drive) -> int:
-    return next((error_number(one) or 0 for one in drive.errors.codes if one.busy), 0)
 
 
 def _writes(drive: Drive, one: Command) -> Iterator[Write]:
@@ -474,23 +456,17 @@ def _identity(drive: Drive) -> Identified | None:
     firsts, own = first_reads(drive), status(drive).identity
     if not firsts:
         return None
-    tests = _plate(drive, firsts[0].read)
+    tests = own.patterns
     reads = [_shown(each, tests) for each in firsts]
     sources = [context.source_of(drive, own.said.source)] if own.patterns else [each.source for each in firsts]
     where = " and ".join(f"at {address_text(each.address)}" for each in reads)
-    return Identified(bool(tests), reads, where, _busy(drive) or BUSY * (not drive.errors.codes), "; ".join(sources))
+    return Identified(bool(tests), reads, where, busy(drive) or BUSY * (not drive.errors.codes), "; ".join(sources))
 
 
-def _shown(first: First, tests: list[Masked]) -> Shown:
+def _shown(first: First, tests: Patterns) -> Shown:
     mask = reduce(or_, first.values, 0)
     read, shows = first.read, "plate" if tests else first.shows
     return Shown(read.function, read.address, read.words, shows, first.values, mask, tests)
-
-
-def _plate(drive: Drive, read: Poll) -> list[Masked]:
-    """The tests of the map's identity, where it has one."""
-    patterns = status(drive).identity.patterns
-    return [Masked(each.register - read.address, each.mask, each.value) for each in patterns]
 
 
 def _commanded_by(drive: Drive, told: Decoded) -> InCommand | None:

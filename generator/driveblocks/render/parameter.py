@@ -6,8 +6,9 @@ from dataclasses import dataclass, replace
 
 from driveblocks.maps.form import Span, is_bit, space_of
 from driveblocks.maps.model import Drive, Storage
-from driveblocks.maps.pair import whole
-from driveblocks.maps.plan import Plan, holding
+from driveblocks.maps.plan import Plan, holding, merged
+from driveblocks.meaning.measure import own_maximum
+from driveblocks.meaning.reference import reference
 from driveblocks.meaning.serial import serial
 from driveblocks.meaning.words import words
 from driveblocks.render.context import source_of
@@ -40,9 +41,9 @@ class MayWrite:
 
     name: str
     can_write: str
-    fixed: list[Span]
+    fixed: tuple[Span, ...]
     """What is read only, or not used."""
-    refused: list[tuple[str, str, list[Span]]]
+    refused: list[tuple[str, str, tuple[Span, ...]]]
     """The name of the result, why, and the spans, from the weakest to the strongest."""
     ranges: list[Ranged]
 
@@ -73,12 +74,12 @@ def may_write(drive: Drive, allowed: Plan) -> MayWrite:
 def _settings(drive: Drive) -> Iterator[int | None]:
     """The registers of the settings, and of the maximum that the full scale is compared with."""
     yield from (one.register for one in drive.settings)
-    yield drive.operation.own_maximum.register if drive.operation.own_maximum else None
+    yield maximum.register if (maximum := own_maximum(drive)) else None
 
 
 def _commanded(drive: Drive) -> Iterator[int]:
     """The registers by which the drive block moves the motor."""
-    yield from whole(drive, drive.operation.reference.register)
+    yield from reference(drive).registers
     yield from (each.register for each in words(drive).registers if not is_bit(each.register))
 
 
@@ -96,15 +97,9 @@ def _with_aliases(drive: Drive, addresses: Iterable[int | None]) -> set[int]:
     return {alias for one in addresses if one is not None for alias in (one, one | bit, pairs.get(one, one))}
 
 
-def _spans(addresses: Iterable[int]) -> list[Span]:
+def _spans(addresses: Iterable[int]) -> tuple[Span, ...]:
     """Addresses as runs."""
-    runs: list[Span] = []
-    for address in sorted(addresses):
-        if runs and address == runs[-1].last + 1:
-            runs[-1] = Span(runs[-1].first, address)
-        else:
-            runs.append(Span(address, address))
-    return runs
+    return merged(Span(each, each) for each in addresses)
 
 
 def _ranges(drive: Drive, writable: set[int]) -> Iterator[Ranged]:

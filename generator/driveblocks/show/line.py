@@ -4,9 +4,9 @@ from collections.abc import Iterable, Iterator
 
 from rich.console import RenderableType
 
-from driveblocks.maps import conduct
 from driveblocks.maps.form import address_text
 from driveblocks.maps.model import BaudCode, Choice, Drive, FormatCode, Function, Limits, ModeCode, Serial, Setting
+from driveblocks.meaning import conduct
 from driveblocks.show.errata import corroborated
 from driveblocks.show.faults import recorded
 from driveblocks.show.layout import both, card, choices, code_text, facts, heading, listed

@@ -6,10 +6,10 @@ from rich.console import RenderableType
 from rich.padding import Padding
 
 from driveblocks.maps import view
-from driveblocks.maps.conduct import condition
 from driveblocks.maps.form import Span, address_text, bits_text, span_text, wire
 from driveblocks.maps.model import Area, Command, Drive, Register, Section, Step, Value
 from driveblocks.maps.numbering import named
+from driveblocks.meaning.pattern import of_condition
 from driveblocks.show.errata import corroborated
 from driveblocks.show.faults import recorded
 from driveblocks.show.layout import OWN, both, card, code_text, listed, listing
@@ -82,10 +82,11 @@ def _scale(row: Register) -> str | None:
     scale = row.scale
     if scale is None:
         return None
-    when = f"\nonly while {condition(scale.when)}" if scale.when else ""
+    when = f"\nonly while {of_condition(scale.when)}" if scale.when else ""
     when += f"\nonly while {scale.needs.setting} = {scale.needs.value}" if scale.needs else ""
     when += "".join(
-        f"\none count is {one.factor} {row.unit} while {condition(one.when)}  ({one.source})" for one in scale.otherwise
+        f"\none count is {one.factor} {row.unit} while {of_condition(one.when)}  ({one.source})"
+        for one in scale.otherwise
     )
     proof = f"\nproved by the example frame {scale.proof}" if scale.proof else ""
     return f"one count is {scale.factor} {row.unit}{when}{proof}\n({scale.source})"
@@ -123,7 +124,7 @@ def _shows(drive: Drive, address: int) -> Iterator[str]:
     """What a register shows on pins of the drive block."""
     operation = drive.operation
     for status in operation.status:
-        some = [condition(one) for one in status.any if one.register == address]
+        some = [str(of_condition(one)) for one in status.any if one.register == address]
         if some:
             yield f"{status.shows.replace('_', ' ')}: {' or '.join(some)}"
     yield from (one.shows.replace("_", " ") for one in operation.measures if one.register == address)
@@ -131,9 +132,9 @@ def _shows(drive: Drive, address: int) -> Iterator[str]:
         yield "fault code"
     if address in drive.warned:
         yield "warning code"
-    yield from (f"state {one.name}: {condition(one)}" for one in operation.states if one.register == address)
+    yield from (f"state {one.name}: {of_condition(one)}" for one in operation.states if one.register == address)
     for what, told in (("bus in command", operation.commanded_by), ("identity", drive.identity)):
-        asked = [condition(one) for one in told.all if one.register == address] if told else []
+        asked = [str(of_condition(one)) for one in told.all if one.register == address] if told else []
         if asked:
             yield f"{what}: {' and '.join(asked)}"
     if operation.own_maximum is not None and operation.own_maximum.register == address:

@@ -14,9 +14,9 @@ from driveblocks.desk.site.line import LEARNED_AFTER, PINS, SLOT, Line, Unit, nu
 from driveblocks.desk.words import time
 from driveblocks.maps import catalog
 from driveblocks.maps.collection import Source
-from driveblocks.maps.plan import reply_delay, writes_by
-from driveblocks.maps.polls import Poll, polls
+from driveblocks.maps.plan import writes_by
 from driveblocks.maps.problem import Refused
+from driveblocks.meaning.polls import Poll, polls
 from driveblocks.meaning.serial import FORMS, USUAL_BITS, USUAL_RATE, character, delivered, serial
 from structured_text import files
 from structured_text.engines.embedded.library import EmbeddedInstance
@@ -154,7 +154,7 @@ def _line(words: Words, seen: Controller, loaded: source.Loaded, times: Mapping[
     port = f"{seen.wiring.port}.LateMs" if seen.wiring.port else f"{bus}.PortLateMs"
     keeps = f"{seen.wiring.port}.KeepsSilence" if seen.wiring.port else f"{bus}.KeepsSilence"
     scan, unlearned = times["scan"] or 0, _slots(seen, size)
-    delays = (reply_delay(each.drive)[0] or 0 for each in _units(seen, size) if each.drive)
+    delays = (serial(each.drive).delay_ms for each in _units(seen, size) if each.drive)
     reply = times["reply"] or max([USUAL_REPLY_MS, *delays])
     for at in range(size):
         block[f"{bus}.Slots[{at}].Replies"] = LEARNED_AFTER

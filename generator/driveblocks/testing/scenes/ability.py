@@ -4,9 +4,10 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from driveblocks.maps.model import Drive
-from driveblocks.maps.polls import meaning_words, polls
 from driveblocks.meaning.measure import measures
+from driveblocks.meaning.polls import meaning_words, polls
 from driveblocks.meaning.status import status
+from driveblocks.meaning.watchdog import feeds
 from driveblocks.simulator.move import MOTIONS
 from driveblocks.testing.scenes.drive import ORDERS
 
@@ -57,9 +58,8 @@ class Ability:
     @cached_property
     def feeds(self) -> str:
         """What feeds its watchdog, which a drive block takes for the reference unless the map says more."""
-        watchdog = self.drive.watchdog
-        named = watchdog.feeds if watchdog else None
-        return {None: "reference", "any": "read"}.get(named, named or "reference")
+        named = feeds(self.drive) or "reference"
+        return "read" if named == "any" else named
 
     @cached_property
     def settings_come_first(self) -> bool:

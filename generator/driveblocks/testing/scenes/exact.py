@@ -4,6 +4,7 @@ from collections.abc import Iterator
 
 from driveblocks.maps.model import Drive
 from driveblocks.maps.rivals import first_reads
+from driveblocks.meaning.watchdog import feeds, watchdog
 from driveblocks.testing.scenes.ability import Ability
 from driveblocks.testing.scenes.motor import POWER, STANDS, run
 from driveblocks.testing.scenes.reason import REASONS
@@ -96,7 +97,7 @@ def _refresh(drive: Drive) -> Iterator[Step]:
     yield Step("every 20 ms", MS | often, ms=100 * SCAN_MS, shows={
         ".Period": (20, 40) if slow else 20, "Running": True,
     })  # fmt: skip
-    if drive.watchdog and drive.watchdog.feeds != "reference":
+    if watchdog(drive) and feeds(drive) != "reference":
         return
     fed: Shows = {"Pins.Settings.RefreshMs": 65535, "Pins.Settings.WatchdogMs": 60}
     yield Step("three times in the time of a watchdog", fed, ms=100 * SCAN_MS, shows={

@@ -8,7 +8,7 @@ from typing import Any
 
 from driveblocks.maps.form import is_bit
 from driveblocks.maps.model import Drive
-from driveblocks.maps.polls import fast_words, other_words, polls, schedule, slow_words
+from driveblocks.meaning.polls import fast_words, other_words, polls, schedule, slow_words
 from driveblocks.meaning.reference import reference
 from driveblocks.meaning.roles import roles
 from driveblocks.meaning.status import status

@@ -3,10 +3,11 @@
 from collections.abc import Iterator
 
 from driveblocks.maps.model import Drive
+from driveblocks.maps.plan import busy
 from driveblocks.meaning.serial import serial
 from driveblocks.reference.framing import ascii_encode, rtu_seal
 from driveblocks.testing.scenes.ability import Ability
-from driveblocks.testing.scenes.drive import busy, simulated
+from driveblocks.testing.scenes.drive import simulated
 from driveblocks.testing.scenes.motor import NOTHING_STARTED, RUNNING, STANDS, run
 from driveblocks.testing.scenes.scene import More, Scene, Shows, Step, scene, script, why
 from driveblocks.testing.script import SCAN_MS, Script

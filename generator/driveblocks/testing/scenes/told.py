@@ -4,11 +4,12 @@ from collections.abc import Iterator, Mapping
 
 from driveblocks.maps.form import is_bit
 from driveblocks.maps.model import Command, Drive
+from driveblocks.maps.plan import busy
 from driveblocks.maps.rivals import first_reads, refusals
 from driveblocks.meaning.serial import serial
 from driveblocks.reference.command import Commands
 from driveblocks.testing.scenes.ability import Ability
-from driveblocks.testing.scenes.drive import busy, mark
+from driveblocks.testing.scenes.drive import mark
 from driveblocks.testing.scenes.motor import NOTHING_STARTED, RUNNING, STANDS
 from driveblocks.testing.scenes.scene import More, Scene, Shows, Step, Value, scene, script
 from driveblocks.testing.script import Script

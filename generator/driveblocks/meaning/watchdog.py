@@ -1,0 +1,82 @@
+"""The drive's own watchdog of a silent line: what feeds it, when it acts, and what the drive then does."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from decimal import Decimal
+
+from driveblocks.maps.model import Drive, Setting, SilenceTime, kept
+from driveblocks.meaning.citation import Citation, cited
+
+
+@dataclass(frozen=True)
+class Time:
+    """After how much silence it acts: counts of a keypad setting, or of a register."""
+
+    said: Citation
+    setting: str | None
+    register: int | None
+    count_ms: Decimal
+    least_ms: Decimal | None
+    """By the range of the setting, where the manual has one."""
+    most_ms: Decimal | None
+
+
+@dataclass(frozen=True)
+class Reaction:
+    """What the drive does, by the value of the setting that chooses it, if one does."""
+
+    value: int | None
+    name: str
+    """What the manual calls the value."""
+    factory: bool
+    does: str
+
+
+@dataclass(frozen=True)
+class Watchdog:
+    """What a map says of it."""
+
+    said: Citation
+    feeds: str | None
+    """A read, a written reference, a run command, or any good frame; None: the manual does not say."""
+    time: Time | None
+    chosen_by: str | None
+    reactions: tuple[Reaction, ...]
+    off: tuple[str, int] | None
+    """The setting that switches it off, and its value."""
+    note: str | None
+
+
+@kept
+def watchdog(drive: Drive) -> Watchdog | None:
+    """The watchdog of a drive; None where the manual knows of none."""
+    one, settings = drive.watchdog, {each.id: each for each in drive.settings}
+    if one is None:
+        return None
+    chosen, off = settings.get(one.chosen_by or ""), one.disabled_by
+    return Watchdog(
+        said=cited(one),
+        feeds=one.feeds,
+        time=_time(one.time, settings) if one.time else None,
+        chosen_by=chosen.id if chosen else None,
+        reactions=tuple(_reaction(each.value, each.does, chosen) for each in one.reactions),
+        off=(off.setting, off.value) if off else None,
+        note=one.note,
+    )
+
+
+def _reaction(value: int | None, does: str, chosen: Setting | None) -> Reaction:
+    name = next((each.name for each in (chosen.values if chosen else ()) if each.value == value), "")
+    return Reaction(value, name, chosen is not None and chosen.default == str(value), does)
+
+
+def _time(time: SilenceTime, settings: Mapping[str, Setting]) -> Time:
+    row, count = settings.get(time.setting or ""), time.milliseconds
+    least, most = (row.range.min * count, row.range.max * count) if row and row.range else (None, None)
+    return Time(cited(time), time.setting, time.register, count, least, most)
+
+
+def feeds(drive: Drive) -> str | None:
+    """What feeds the watchdog of a drive; None where it has none, or nobody says."""
+    own = watchdog(drive)
+    return own.feeds if own else None
