@@ -38,10 +38,6 @@ class Held(NamedTuple):
     known: int
     word: int
 
-    def part(self, first: int, ones: int) -> "Held":
-        """The same of a field: of its bits, shifted down."""
-        return Held(self.known >> first & ones, self.word >> first & ones)
-
 
 UNKNOWN = Held(0, 0)
 
@@ -94,23 +90,24 @@ class Field:
 
     def may(self, held: Held) -> list[tuple[int | None, Effect]]:
         """What it may do in a word that is known in part, each with its value; None for any that is not listed."""
-        known, word = held.part(self.first, self.ones)
+        known, word = held.known >> self.first & self.ones, held.word >> self.first & self.ones
         if known == self.ones:
-            return [(word, self.at(word << self.first))]
-        found: list[tuple[int | None, Effect]] = [each for each in self.effects if (each[0] ^ word) & known == 0]
-        listed = {value for value, _ in found} | ({0} if word & known == 0 else set())
-        return [*found, *([(None, self.rest)] if 1 << (self.ones & ~known).bit_count() > len(listed) else [])]
+            return [(word, self.at(held.word))]
+        listed = {0: NOTHING} | dict(self.effects)
+        found: list[tuple[int | None, Effect]] = [each for each in listed.items() if (each[0] ^ word) & known == 0]
+        return [*found, *([(None, self.rest)] if 1 << (self.ones & ~known).bit_count() > len(found) else [])]
 
     def called(self, value: int | None, effect: Effect) -> str:
-        """A value of it in words: ``bit 1 `Start` at 1``."""
-        span = (
-            "value"
-            if self.ones == WORD
-            else f"bit{'s' * (self.last > self.first)} {bits_text(Span(self.first, self.last))}"
-        )
-        name = f" `{self.name}`" * bool(self.name and self.ones != WORD)
-        at = "" if value is None else f" {value}" if self.ones == WORD else f" at {value}"
-        return f"{span}{name}{at}{f' `{effect.name}`' if effect.name else ''}"
+        """A value of it in words: ``bit 1 `Start` at 1``, ``value 5 `Stop```."""
+        span, number = Span(self.first, self.last), "" if value is None else str(value)
+        told = [
+            f"bit{'s' * (len(span) > 1)} {bits_text(span)}",
+            self.name and f"`{self.name}`",
+            number and f"at {number}",
+        ]
+        if self.ones == WORD:
+            told = ["value", number]
+        return " ".join(each for each in (*told, effect.name and f"`{effect.name}`") if each)
 
 
 class Cause(NamedTuple):
@@ -172,9 +169,8 @@ class CommandWord:
 
 def _comes(one: Cause, now: Held, before: Held) -> bool:
     """Whether a field can act: by its edge alone it acts only where its value may not have been there before."""
-    field = one.field
-    was, is_ = before.part(field.first, field.ones), now.part(field.first, field.ones)
-    there = was.known == is_.known == field.ones and was.word == is_.word
+    bits = one.field.ones << one.field.first
+    there = now.known & before.known & bits == bits and (now.word ^ before.word) & bits == 0
     return one.effect.by != "edge" or not there
 
 
@@ -201,11 +197,11 @@ class Write:
     @property
     def held(self) -> Held:
         """What is known of the register after it."""
-        return Held(WORD & ~self.keeps, self.word)
+        return Held(~self.keeps & WORD, self.word)
 
     def is_in(self, word: int) -> bool:
         """Whether a word that was sent may be this write."""
-        return word & ~self.keeps & WORD == self.word
+        return word & ~self.keeps == self.word
 
 
 @dataclass(frozen=True)
