@@ -76,7 +76,6 @@ class Field:
     """What it does at each value that the map lists."""
     rest: Effect = UNDECLARED
     """What it does at any other value but 0."""
-    unused: bool = False
 
     @property
     def ones(self) -> int:
@@ -221,14 +220,6 @@ class Command:
         """The write that stays."""
         return self.writes[-1]
 
-    @property
-    def steps(self) -> "Iterator[tuple[Write, Held]]":
-        """Each write, with what is known of its register before it."""
-        held: dict[int, Held] = {}
-        for write in self.writes:
-            yield write, held.get(write.register, UNKNOWN)
-            held[write.register] = write.held
-
 
 @dataclass(frozen=True)
 class Words:
@@ -236,10 +227,6 @@ class Words:
 
     commands: tuple[Command, ...]
     registers: tuple[CommandWord, ...]
-
-    def of(self, does: Does) -> Command | None:
-        """A command, where the family has it."""
-        return next((one for one in self.commands if one.does == does), None)
 
     @property
     def stop(self) -> Command:
@@ -250,16 +237,19 @@ class Words:
         """A command register."""
         return next((one for one in self.registers if one.register == register), None)
 
-    def moving(self, command: Command) -> "list[tuple[int, Write, Cause]]":
-        """The writes of a command that may move the motor, by their number from 0."""
-        steps = enumerate(command.steps)
-        words = ((at, write, self.at(write.register), before) for at, (write, before) in steps)
-        found = ((at, write, word.moves(write.held, before)) for at, write, word, before in words if word)
-        return [(at, write, cause) for at, write, cause in found if cause]
+    def of(self, write: Write) -> CommandWord:
+        """The register of a write."""
+        return next(one for one in self.registers if one.register == write.register)
 
-    def keeps(self, register: int) -> int:
-        """The bits of a command register that are as the user of the block sets them."""
-        return max((one.keeps for each in self.commands for one in each.writes if one.register == register), default=0)
+    def moving(self, command: Command) -> list[tuple[int, Write, Cause]]:
+        """The writes of a command that may move the motor, by their number from 0."""
+        before: dict[int, Held] = {}
+        found = []
+        for number, write in enumerate(command.writes):
+            cause = self.of(write).moves(write.held, before.get(write.register, UNKNOWN))
+            found += [(number, write, cause)] if cause else []
+            before[write.register] = write.held
+        return found
 
 
 @kept
@@ -325,7 +315,7 @@ def _register(drive: Drive, register: int) -> CommandWord:
         return CommandWord(register, (Field(0, 15, "", ()),), False, "", None)
     section, row = found
     fields = tuple(_fields(row, 0 if is_bit(register) else 15))
-    effects = [each for one in fields if not one.unused for each in (one.rest, *dict(one.effects).values())]
+    effects = [each for one in fields for each in (one.rest, *dict(one.effects).values())]
     declared = any(each.declared and each != replace(NOTHING, name=each.name) for each in effects)
     return CommandWord(register, fields, declared, row.source or section.source, row.document or section.document)
 
@@ -345,7 +335,7 @@ def _field(row: Row) -> Field:
     """A row of a word; a value that does not say itself what it does is as its row says of any value but 0."""
     first, last, name = row.bit.first, row.bit.last, row.name or ""
     if row.unused:
-        return Field(first, last, name, (), NOTHING, unused=True)
+        return Field(first, last, name, (), NOTHING)
     rest, zero = _effect(row.does, row, UNDECLARED), _effect(row.at_0, row, NOTHING, by="level")
     effects = {0: zero} if first == last or row.at_0 else {}
     for one in row.values:
