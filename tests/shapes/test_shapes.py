@@ -131,6 +131,21 @@ def test_a_stop_that_forgets_an_active_low_bit_is_refused() -> None:
     assert "`stop` writes 0000H to 1000H, where bit 0 `Run, active low` at 0 starts the motor" in wrong
 
 
+def test_a_step_may_wait_for_a_state_and_a_time_and_states_may_wait_for_nobody() -> None:
+    drive = shapes()["profidrive"]
+    forward, (state,) = command(drive, "run_forward"), drive.operation.states
+    step = replace(forward.first[0], for_ms=100)
+    whole = (
+        state,
+        *(replace(state, name=f"other_{at}", equals=at) for at in (0x00, 0x04, 0x05, 0x40, 0x41, 0x44, 0x45)),
+    )
+    commands = (replace(forward, first=(step,)), *drive.operation.commands[1:])
+    made = replace(drive, operation=replace(drive.operation, commands=commands, states=whole))
+    assert judged(made) == []
+    first, _ = drive_block(made).ordering.orders[5]
+    assert (first.hold, first.wait and first.wait.name) == (100, "ready_to_switch_on")
+
+
 def test_a_fault_is_shown_by_any_code_but_0(tmp_path: Path) -> None:
     said = drive_block(shapes()["packed"]).showing.says["fault"]
     assert said == ["((Reads.PresentFaultWord AND WORD#16#FF00) <> WORD#16#0000)"]

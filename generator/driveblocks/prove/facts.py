@@ -18,7 +18,7 @@ from driveblocks.meaning.reference import reference
 from driveblocks.meaning.roles import roles
 from driveblocks.meaning.serial import serial
 from driveblocks.meaning.status import status
-from driveblocks.meaning.words import MOTIONS, STOPS, Command, words
+from driveblocks.meaning.words import MOTIONS, STOPS, Command, CommandWord, Field, words
 from driveblocks.modbus.layout import COIL_ON
 from driveblocks.render.context import word_input
 from driveblocks.render.decoded import Decoded
@@ -85,6 +85,7 @@ def facts(drive: Drive) -> dict[str, str]:
     for name, (stop, copy) in copies.items():
         frame = found[f"last_{stop}"].replace("Slot.Ask[0].Address", f"{copy}Register")
         found[name] = frame.replace("Slot.Ask[0].Words[0]", f"{copy}Word") if stop in commands else "TRUE"
+    found["stop_moves"], found["reset_moves"] = _moves(drive, "Slot.Ask[0]"), _moves(drive, "Slot.Ask[1]")
     found["quick_or_stop"] = found["quick_stop"] if "quick_stop" in commands else found["stop"]
     found["coast_or_stop"] = found["coast_stop"] if "coast_stop" in commands else found["stop"]
     return found
@@ -97,6 +98,36 @@ def _frames(drive: Drive, one: Command, ask: str) -> Iterator[str]:
         sent = f"({ask}.Words[0] AND {word(ALL ^ write.keeps)})" if write.keeps else f"{ask}.Words[0]"
         by = _by(drive, write.register) if ask == "Slot.Ask[1]" else ""
         yield f"({ask}.Address = {word(write.register)}) AND ({sent} = {value}){by}"
+
+
+def _moves(drive: Drive, ask: str) -> str:
+    """That a request writes what may move the motor: some field of its word starts it, and none holds it still."""
+    return _any(
+        f"({ask}.Address = {word(one.register)}){_by(drive, one.register) if ask == 'Slot.Ask[1]' else ''} "
+        f"AND ({_any(_starts(one, ask))}) AND NOT ({_any(_does(one, ask, holds=True))})"
+        for one in words(drive).registers
+    )
+
+
+def _starts(one: CommandWord, ask: str) -> Iterator[str]:
+    yield from _does(one, ask, holds=False)
+    for field in one.fields:
+        if field.rest.moves and len(field.effects) <= field.ones:
+            listed = {0} | {value for value, _ in field.effects}
+            yield _every(f"NOT ({_is(one, field, value, ask)})" for value in sorted(listed))
+
+
+def _does(one: CommandWord, ask: str, *, holds: bool) -> Iterator[str]:
+    """The values of fields that start the motor, or that hold it still."""
+    for field in one.fields:
+        for value, effect in field.effects:
+            if effect.holds if holds else effect.moves:
+                yield _is(one, field, value, ask)
+
+
+def _is(one: CommandWord, field: Field, value: int, ask: str) -> str:
+    times, mask = (COIL_ON, ALL) if is_bit(one.register) else (1 << field.first, field.ones << field.first)
+    return f"({ask}.Words[0] AND {word(mask)}) = {word(value * times)}"
 
 
 def _by(drive: Drive, register: int) -> str:

@@ -10,6 +10,7 @@ from driveblocks.maps.form import Span, address_text, bits_text, span_text, wire
 from driveblocks.maps.model import Area, Command, Drive, Register, Section, Step, Value
 from driveblocks.maps.numbering import named
 from driveblocks.meaning.pattern import of_condition
+from driveblocks.meaning.words import DOES, UNKNOWN, words
 from driveblocks.show.errata import corroborated
 from driveblocks.show.faults import recorded
 from driveblocks.show.layout import OWN, both, card, code_text, listed, listing
@@ -35,6 +36,7 @@ def page(drive: Drive, section: Section, row: Register, address: int) -> Iterato
         ("signed", "two's complement, -32768 to 32767" if row.signed else None),
         ("range", f"{row.range.min} to {row.range.max} (raw)" if row.range else None),
         ("commands", "\n".join(_commands(drive, row, address))),
+        ("motor", "\n".join(_motor(drive, address))),
         ("never", "\n".join(f"bits {bits_text(one.bit)} = {one.equals}: {one.why}" for one in row.never)),
         ("pins", "\n".join(_shows(drive, address)) if drive.is_read(row) else None),
         ("RAM only", _ram_only(drive, address)),
@@ -103,6 +105,16 @@ def _commands(drive: Drive, row: Register, address: int) -> Iterator[str]:
         if command.register == address:
             note = f" ({command.note})" if command.note else ""
             yield f"{does}: {_written(drive, command)}{note}"
+
+
+def _motor(drive: Drive, address: int) -> Iterator[str]:
+    """What bits and values of a command register do to the motor."""
+    told = words(drive).at(address)
+    for one in told.causes(UNKNOWN) if told else ():
+        does = " and ".join(text for act, text in DOES.items() if act in one.effect.acts and one.effect.declared)
+        by = f", by its {one.effect.by}" if one.effect.by == "edge" else ""
+        if does:
+            yield f"{one} {does}{by}{', whatever else is set' if one.effect.holds else ''}"
 
 
 def value_text(drive: Drive, one: Command | Step) -> str:

@@ -68,10 +68,9 @@ def _row(row: Register, report: Report) -> None:
 def _command(known: Words, command: Command, report: Report) -> None:
     """Note a write that moves the motor and must not, or the contrary, and one that hands the drive over."""
     for write in command.writes:
-        word = known.at(write.register)
-        over = next((one for one in word.causes(write.held) if "hands_over" in one.effect.acts), None) if word else None
+        over = [one for one in known.of(write).causes(write.held) if "hands_over" in one.effect.acts]
         if over:
-            report.add(write.at, _wrong(command, write, over, "hands_over"), "clear it, or keep it out by `never`")
+            report.add(write.at, _wrong(command, write, over[0], "hands_over"), "clear it, or keep it out by `never`")
     moving = known.moving(command)
     if command.does in MOTIONS:
         for _, write, cause in moving[:-1]:
@@ -109,11 +108,9 @@ def _motion(known: Words, command: Command, moving: list[tuple[int, Write, Cause
         report.miss(command.last.at, _lacks(command, command.last, wanted), _CORRECT)
         return
     number, write, cause = moving[-1]
-    word = known.at(write.register)
-    assert word is not None  # noqa: S101  (it moved)
     if wanted not in cause.effect.acts or not cause.effect.declared:
         report.add(write.at, _wrong(command, write, cause), _CORRECT)
-    for one in word.certain(write.held):
+    for one in known.of(write).certain(write.held):
         also = next((act for act in (*KINDS, "resets") if one.value and act in one.effect.acts), None)
         if also:
             report.add(write.at, _wrong(command, write, one, also), _CORRECT)
@@ -154,17 +151,16 @@ def _open(command: Command, word: CommandWord, one: Cause, act: Act) -> str:
 def _stop(known: Words, command: Command, report: Report) -> None:
     """Note a stop that stops nothing, or in another way; a word that ends a jog may stop a run as well."""
     write, wanted = command.last, _KIND[command.does]
-    word = known.at(write.register)
-    kind = word.stops(write.held) if word else None
-    cause = word.gives(kind, write.held) if word and kind else None
-    if cause is None:
+    word = known.of(write)
+    kind = word.stops(write.held)
+    cause = word.gives(kind, write.held) if kind else None
+    if kind is None or cause is None:
         report.miss(write.at, _lacks(command, write, wanted), _CORRECT)
-    elif kind != wanted and not (word and wanted == "ends_jog" and word.gives(wanted, write.held)):
+    elif kind != wanted and not (wanted == "ends_jog" and word.gives(wanted, write.held)):
         report.add(write.at, _wrong(command, write, cause, kind), _CORRECT)
 
 
 def _reset(known: Words, command: Command, report: Report) -> None:
     """Note a fault reset that resets nothing."""
-    words_ = ((known.at(write.register), write) for write in command.writes)
-    if not any(word.gives("resets", write.held) for word, write in words_ if word):
+    if not any(known.of(write).gives("resets", write.held) for write in command.writes):
         report.miss(command.last.at, _lacks(command, command.last, "resets"), _CORRECT)
