@@ -25,7 +25,7 @@ from driveblocks.platforms.part import Part
 from driveblocks.platforms.port import adapter, first_motor
 from driveblocks.platforms.record import Platform
 from driveblocks.render import context
-from driveblocks.render.drive import drive_block, pin_of
+from driveblocks.render.drive import drive_block
 from driveblocks.render.environment import render
 from driveblocks.render.library import File
 from driveblocks.render.motor import SCAN_MS, motor
@@ -200,13 +200,13 @@ def _wires(drive: Drive) -> dict[str, str]:
 
 def _swapped(drive: Drive) -> dict[str, str]:
     """What a block of this family wants otherwise than that of another."""
-    first, line, speed = motor(drive), serial(drive), reference(drive)
+    line, speed = serial(drive), reference(drive)
     return {
         "prefix": drive.prefix,
         "full": f"required: what {speed.maximum} says" if speed.percent else "no use",
         "scale": "no use" if speed.scaled else "required",
         "pairs": "required" if speed.in_rpm else "no use",
-        "reset": "yes" if first.has_reset else "no",
+        "reset": "yes" if can(drive, "fault_reset") else "no",
         "cannot": ", ".join(words for does, words in ABILITIES.items() if not can(drive, does)) or "nothing",
         "units": f"{line.lowest} to {line.highest}",
     }
@@ -302,7 +302,7 @@ def _page(drive: Drive, checked: Checked, values: Mapping[str, Any], own: Own, p
         states=STATES,
         turn_round=_turn_round(drive),
         delayed=serial(drive).delay_ms == _turn_round(drive) and serial(drive).delay,
-        **vars(motor(drive)),
+        **motor(drive),
         **values,
     )
 
@@ -325,7 +325,7 @@ def _reported(drive: Drive) -> list[str]:
 
 def _shown(drive: Drive, cell: str) -> list[str]:
     """The pins that show a value, as it is or once its scale is found out."""
-    return [f"`{pin_of(shows).pin}`" for shows in PINS if _shows(drive, shows) == cell]
+    return [f"`{PINS[shows].pin}`" for shows in PINS if _shows(drive, shows) == cell]
 
 
 def _conduct(drive: Drive) -> list[tuple[str, str]]:
