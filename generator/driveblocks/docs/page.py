@@ -13,8 +13,9 @@ from driveblocks.maps import inventory, rivals, trust
 from driveblocks.maps.form import address_text
 from driveblocks.maps.model import Absence, Drive, Erratum, Notice, Setting
 from driveblocks.meaning import conduct
-from driveblocks.meaning.measure import PINS
+from driveblocks.meaning.measure import PINS, measures, own_maximum
 from driveblocks.meaning.polls import Poll, polls, schedule, wire_ms
+from driveblocks.meaning.quantity import quantity
 from driveblocks.meaning.reference import reference
 from driveblocks.meaning.serial import serial
 from driveblocks.meaning.status import status
@@ -320,7 +321,7 @@ def _reported(drive: Drive) -> list[str]:
     told = [f"that it is {words}" for one, words in WORDS.items() if shows.shows(one)]
     told += ["what it is"] if shows.identity.patterns else []
     told += ["whether the bus is in command"] if shows.by_bus.patterns else []
-    return told + (["its own maximum frequency"] if drive.operation.own_maximum is not None else [])
+    return told + (["its own maximum frequency"] if own_maximum(drive) else [])
 
 
 def _shown(drive: Drive, cell: str) -> list[str]:
@@ -367,9 +368,8 @@ def _matters(notice: Notice) -> bool:
 
 def _open(drive: Drive, one: Absence) -> bool:
     """Whether a gap of the manual is about the line, commands, reference, a scale that a pin needs, or conduct."""
-    rows = {each.register: drive.register_at(each.register) for each in drive.operation.measures}
-    words = {each.register for each in drive.operation.commands} | {drive.operation.reference.register}
-    words |= {address for address, row in rows.items() if row and not row.scale}
+    words = {each.register for each in drive.operation.commands} | {reference(drive).register}
+    words |= {each.register for each in measures(drive) if not quantity(drive, each.register).factors}
     about = {"serial", "operation", *CONDUCT, *(f"register {address_text(word)}" for word in words)}
     about |= {f"setting {each.id}" for each in drive.settings}
     return not about.isdisjoint(one.about)
@@ -386,8 +386,8 @@ def _errata(drive: Drive) -> Iterator[dict[str, str]]:
 
 def _bears(drive: Drive, one: Erratum) -> bool:
     """Whether a misprint is about a word that the block reads or writes, or about a keypad setting."""
-    words = {each.register for each in drive.operation.commands} | {drive.operation.reference.register}
-    words |= {each.register for each in drive.operation.measures}
+    words = {each.register for each in drive.operation.commands} | {each.register for each in measures(drive)}
+    words.add(reference(drive).register)
     about = {f"register {address_text(word)}" for word in words} | {f"setting {each.id}" for each in drive.settings}
     return not about.isdisjoint(one.about)
 

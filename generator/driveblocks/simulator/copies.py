@@ -11,6 +11,7 @@ from driveblocks.maps.numbering import named
 from driveblocks.maps.plan import merged
 from driveblocks.meaning.measure import measures
 from driveblocks.meaning.quantity import of_row
+from driveblocks.meaning.reference import reference
 from driveblocks.simulator.habits import Habits
 
 _NAMES = {
@@ -78,7 +79,7 @@ def _bits(row: Register) -> tuple[tuple[int, str], ...]:
 
 def zeros(drive: Drive, known: Iterable[int]) -> str:
     """The registers of a map that read 0 until somebody writes them, as the manual names them; empty for none."""
-    told = {command.register for command in drive.operation.commands} | {drive.operation.reference.register}
+    told = {command.register for command in drive.operation.commands} | {reference(drive).register}
     taken, free = {*known, *told}, list[int]()
     for section, row in drive.registers():
         if "r" in (row.access or section.access) and not row.unused:
