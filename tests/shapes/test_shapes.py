@@ -337,17 +337,17 @@ def test_the_templates_get_what_the_drive_says_of_itself_or_nothing() -> None:
     assert (plate.function, plate.address, plate.words) == (3, 0x2003, 1)
     assert plate.tests == (Pattern(0x2003, 0xFFFF, 0x0312),)
     assert identity.plate
-    assert (bus.holds, block.reading.roles.by_bus) == (["DriveStatusBits.Remote"], (1,))
+    assert (bus, block.reading.roles.by_bus) == (["DriveStatusBits.Remote"], (1,))
     assert (maximum.word.address, maximum.scale) == (0x2004, Decimal("0.1"))
     assert block.reading.roles.verify == (1,)
-    assert {name: drive_block(drive).own.feeds for name, drive in shapes().items()} == {
+    assert {name: drive_block(drive).own["feeds"] for name, drive in shapes().items()} == {
         "cia402": "any", "profidrive": "reference", "pulse": "read", "two_registers": "run", "active_low": None,
         "packed": None,
     }  # fmt: skip
     bare = drive_block(shapes()["profidrive"])
     assert bare.reading.identity is None
     bare = drive_block(shapes()["active_low"])
-    assert (bare.showing.commanded_by, bare.showing.own_maximum) == (None, None)
+    assert (bare.showing.commanded_by, bare.showing.own_maximum) == ([], None)
     apart = bare.reading.identity  # from CHF, whose jog stop is its run, and from JSCC
     assert apart
     assert not apart.plate

@@ -13,8 +13,9 @@ from driveblocks.maps import inventory, rivals, trust
 from driveblocks.maps.form import address_text
 from driveblocks.maps.model import Absence, Drive, Erratum, Notice, Setting
 from driveblocks.meaning import conduct
-from driveblocks.meaning.measure import PINS
+from driveblocks.meaning.measure import PINS, measures, own_maximum
 from driveblocks.meaning.polls import Poll, polls, schedule, wire_ms
+from driveblocks.meaning.quantity import quantity
 from driveblocks.meaning.reference import reference
 from driveblocks.meaning.serial import serial
 from driveblocks.meaning.status import status
@@ -25,7 +26,7 @@ from driveblocks.platforms.part import Part
 from driveblocks.platforms.port import adapter, first_motor
 from driveblocks.platforms.record import Platform
 from driveblocks.render import context
-from driveblocks.render.drive import drive_block, pin_of
+from driveblocks.render.drive import drive_block
 from driveblocks.render.environment import render
 from driveblocks.render.library import File
 from driveblocks.render.motor import SCAN_MS, motor
@@ -200,13 +201,13 @@ def _wires(drive: Drive) -> dict[str, str]:
 
 def _swapped(drive: Drive) -> dict[str, str]:
     """What a block of this family wants otherwise than that of another."""
-    first, line, speed = motor(drive), serial(drive), reference(drive)
+    line, speed = serial(drive), reference(drive)
     return {
         "prefix": drive.prefix,
         "full": f"required: what {speed.maximum} says" if speed.percent else "no use",
         "scale": "no use" if speed.scaled else "required",
         "pairs": "required" if speed.in_rpm else "no use",
-        "reset": "yes" if first.has_reset else "no",
+        "reset": "yes" if can(drive, "fault_reset") else "no",
         "cannot": ", ".join(words for does, words in ABILITIES.items() if not can(drive, does)) or "nothing",
         "units": f"{line.lowest} to {line.highest}",
     }
@@ -302,7 +303,7 @@ def _page(drive: Drive, checked: Checked, values: Mapping[str, Any], own: Own, p
         states=STATES,
         turn_round=_turn_round(drive),
         delayed=serial(drive).delay_ms == _turn_round(drive) and serial(drive).delay,
-        **vars(motor(drive)),
+        **motor(drive),
         **values,
     )
 
@@ -320,12 +321,12 @@ def _reported(drive: Drive) -> list[str]:
     told = [f"that it is {words}" for one, words in WORDS.items() if shows.shows(one)]
     told += ["what it is"] if shows.identity.patterns else []
     told += ["whether the bus is in command"] if shows.by_bus.patterns else []
-    return told + (["its own maximum frequency"] if drive.operation.own_maximum is not None else [])
+    return told + (["its own maximum frequency"] if own_maximum(drive) else [])
 
 
 def _shown(drive: Drive, cell: str) -> list[str]:
     """The pins that show a value, as it is or once its scale is found out."""
-    return [f"`{pin_of(shows).pin}`" for shows in PINS if _shows(drive, shows) == cell]
+    return [f"`{PINS[shows].pin}`" for shows in PINS if _shows(drive, shows) == cell]
 
 
 def _conduct(drive: Drive) -> list[tuple[str, str]]:
@@ -367,9 +368,8 @@ def _matters(notice: Notice) -> bool:
 
 def _open(drive: Drive, one: Absence) -> bool:
     """Whether a gap of the manual is about the line, commands, reference, a scale that a pin needs, or conduct."""
-    rows = {each.register: drive.register_at(each.register) for each in drive.operation.measures}
-    words = {each.register for each in drive.operation.commands} | {drive.operation.reference.register}
-    words |= {address for address, row in rows.items() if row and not row.scale}
+    words = {each.register for each in drive.operation.commands} | {reference(drive).register}
+    words |= {each.register for each in measures(drive) if not quantity(drive, each.register).factors}
     about = {"serial", "operation", *CONDUCT, *(f"register {address_text(word)}" for word in words)}
     about |= {f"setting {each.id}" for each in drive.settings}
     return not about.isdisjoint(one.about)
@@ -386,8 +386,8 @@ def _errata(drive: Drive) -> Iterator[dict[str, str]]:
 
 def _bears(drive: Drive, one: Erratum) -> bool:
     """Whether a misprint is about a word that the block reads or writes, or about a keypad setting."""
-    words = {each.register for each in drive.operation.commands} | {drive.operation.reference.register}
-    words |= {each.register for each in drive.operation.measures}
+    words = {each.register for each in drive.operation.commands} | {each.register for each in measures(drive)}
+    words.add(reference(drive).register)
     about = {f"register {address_text(word)}" for word in words} | {f"setting {each.id}" for each in drive.settings}
     return not about.isdisjoint(one.about)
 

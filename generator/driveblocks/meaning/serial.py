@@ -103,6 +103,11 @@ class Serial:
         return (self.delay and self.delay.factory_ms) or 0
 
     @property
+    def silence(self) -> bool:
+        """Whether it wants some around a frame, in ms or in characters."""
+        return bool(self.silence_ms or self.silence_characters)
+
+    @property
     def ascii(self) -> bool:
         """Whether it speaks ASCII alone."""
         return "rtu" not in self.modes

@@ -6,6 +6,7 @@ from functools import cached_property
 from driveblocks.maps.model import Drive
 from driveblocks.meaning.measure import measures
 from driveblocks.meaning.polls import meaning_words, polls
+from driveblocks.meaning.reference import reference
 from driveblocks.meaning.status import status
 from driveblocks.meaning.watchdog import feeds
 from driveblocks.simulator.move import MOTIONS
@@ -53,7 +54,7 @@ class Ability:
         """Whether a run is one write, in a register of its own."""
         operation = self.drive.operation
         forward = next(one for one in operation.commands if one.does == "run_forward")
-        return not forward.first and forward.register != operation.reference.register
+        return not forward.first and forward.register != reference(self.drive).register
 
     @cached_property
     def feeds(self) -> str:

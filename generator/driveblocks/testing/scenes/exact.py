@@ -4,6 +4,8 @@ from collections.abc import Iterator
 
 from driveblocks.maps.model import Drive
 from driveblocks.maps.rivals import first_reads
+from driveblocks.meaning.measure import measures
+from driveblocks.meaning.serial import serial
 from driveblocks.meaning.watchdog import feeds, watchdog
 from driveblocks.testing.scenes.ability import Ability
 from driveblocks.testing.scenes.motor import POWER, STANDS, run
@@ -75,7 +77,7 @@ def scenes(drive: Drive) -> Iterator[Scene]:
     yield scene("when a drive is dead", POWER, *_dead())
     yield scene("when a request is withdrawn", POWER, *_mailbox())
     yield scene("when every call comes late", POWER, *_late_calls())
-    if can.drive.operation.measures and can.turns == 1:
+    if measures(can.drive) and can.turns == 1:
         yield scene("how old a measure is", POWER, *_young())
     yield scene("silence after a restart", POWER, *_quiet(drive))
     yield scene("when a stop is overdue", POWER, run(), *_overdue())
@@ -92,7 +94,7 @@ def _refresh(drive: Drive) -> Iterator[Step]:
     yield Step("every five scans", usual, ms=100 * SCAN_MS, shows={
         "Seen.References - Mark": (19, 21), "Running": True,
     })  # fmt: skip
-    slow = drive.serial.silence is not None  # whose silence takes longer than that
+    slow = serial(drive).silence  # whose silence takes longer than that
     often: Shows = {"Pins.Settings.RefreshMs": 20}
     yield Step("every 20 ms", MS | often, ms=100 * SCAN_MS, shows={
         ".Period": (20, 40) if slow else 20, "Running": True,

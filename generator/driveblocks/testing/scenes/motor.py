@@ -3,9 +3,10 @@
 from collections.abc import Iterator
 
 from driveblocks.maps.model import Drive
-from driveblocks.maps.pair import whole
 from driveblocks.maps.trust import second_hand
+from driveblocks.meaning.reference import reference
 from driveblocks.meaning.serial import serial
+from driveblocks.meaning.status import status
 from driveblocks.testing.scenes.ability import Ability
 from driveblocks.testing.scenes.drive import mark
 from driveblocks.testing.scenes.scene import Scene, Shows, Step, scene, script, why
@@ -123,7 +124,7 @@ def _motion(can: Ability, does: str) -> Iterator[Step]:
     })  # fmt: skip
     yield Step("the start is sent", {}, f"{why('STARTING')} OR {pace}", 200, {"StopConfirmed": False})
     sent = next(one.register for one in can.drive.operation.commands if one.does == does)
-    own = sent != can.drive.operation.reference.register
+    own = sent != reference(can.drive).register
     yield Step("it ramps up", {}, f"Motor.Running AND ({pace})", 1000, {
         "Seen.Order": can.order(does), "Slots[0].Once": own, "Slots[0].Begins": own,
     })  # fmt: skip
@@ -660,8 +661,8 @@ def _not_followed() -> Iterator[Step]:
 def _unacknowledged(can: Ability, what: str, reason: str) -> Iterator[Step]:
     operation = can.drive.operation
     forward = next(one for one in operation.commands if one.does == "run_forward")
-    register = operation.reference.register if what == "reference" else forward.register
-    if register == operation.reference.register and what == "run":
+    register = reference(can.drive).register if what == "reference" else forward.register
+    if register == reference(can.drive).register and what == "run":
         return
     lost: Shows = {"Fate.Skips": True, "Fate.Skipped": word(mark(register)), "RunForward": True}
     yield Step("its write is lost", lost, why(reason), 6000, {"Seen.Starts": 0, "Running": False})
@@ -762,7 +763,7 @@ def modes(can: Ability) -> Iterator[Scene]:
     yield scene("the drive's watchdog", POWER, run(), *_heartbeat(can))
     if second_hand(can.drive):
         yield scene("a map that nobody has checked", *_unchecked())
-    if can.drive.operation.reference.verify:
+    if status(can.drive).verify:
         yield scene("a setting that gives the reference another meaning", POWER, run(), *_wrong_setting())
     yield scene("nothing set: the usual values", *_unset())
 
@@ -786,7 +787,7 @@ def _speed_only(can: Ability) -> Iterator[Step]:
     yield Step(
         "a run pin starts nothing", {"RunForward": True}, ms=500, shows=NOTHING_STARTED | {"Reason": "SPEED_ONLY"}
     )
-    register = can.drive.operation.reference.register
+    register = reference(can.drive).register
     lost: Shows = {"Fate.Skips": True, "Fate.Skipped": word(mark(register)), "SpeedReferenceHz": 26.0}
     yield Step("a reference is lost", lost, why("NO_REFERENCE"), 3000, {"Error": True, "ErrorID": 20})
     yield Step("it is sent again", {"Fate.Skips": False}, why("SPEED_ONLY"), 2000, NOTHING_STARTED)
@@ -815,12 +816,11 @@ def _speed_only(can: Ability) -> Iterator[Step]:
 
 def _calm(can: Ability) -> Iterator[Step]:
     """After a stop pin the reference stays 0 for half a second; a pair whose last word is 0 does not show it."""
-    row = can.drive.register_at(can.drive.operation.reference.register, "w")
-    if row is not None and row.order == "low_first":
+    if reference(can.drive).pair == "low_first":
         return
     speeds: Shows = {"SpeedOnly": True, "SpeedReferenceHz": 25.0}
     yield Step("the reference is sent", speeds, f"({why('SPEED_ONLY')}) AND (Seen.References > 0)", 2000)
-    register = word(whole(can.drive, can.drive.operation.reference.register)[-1])
+    register = word(reference(can.drive).registers[-1])
     given = f"(Seen.LastRegister = {register}) AND (Seen.LastWord <> WORD#16#0000)"
     for _ in range(2):
         yield Step("Enable falls", {"Enable": False}, ms=100, shows={"Motor.Diagnosis.State": 6})

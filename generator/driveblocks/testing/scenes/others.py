@@ -197,7 +197,7 @@ def _late_other(can: Ability) -> Iterator[Step]:
     """They come when the other drive has been asked already, and are nobody's but its own."""
     other: Shows = {"Pins.OtherOn": True, "Pins.OtherUnit": serial(can.drive).lowest + 1}
     yield Step("two drives", other, "Other.Ready", 4000, {"Bus.ForeignFrames": 0})
-    late = 80 if can.drive.serial.silence else 60  # a silence of the drive's own lengthens what is in time
+    late = 80 if serial(can.drive).silence else 60  # a silence of the drive's own lengthens what is in time
     yield Step(
         "one is later than it may be",
         {"OtherFate.HoldMs": late},
