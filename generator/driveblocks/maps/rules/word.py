@@ -45,7 +45,8 @@ def _silent(register: int, row: Register | None, report: Report) -> None:
     if row is not None:
         key, what = ("bits", "bits") if row.bits else ("values", "values") if row.values else ("address", "value")
         wrong = f"nothing says what the {what} of {address_text(register)} do{'es' * (what == 'value')} to the motor"
-        report.miss(row.place(key), wrong, "give each what it `does`, such as `does: [starts]`; names decide nothing")
+        right = "write beside each what it does: `does: [starts]`, `[stops]`, `[resets]`, `[reverses]`, `[nothing]`"
+        report.miss(row.place(key), wrong, right)
 
 
 def _row(row: Register, report: Report) -> None:
