@@ -7,13 +7,16 @@ from tests.rooms import ROOT
 ROOMS = ("render", "simulator", "prove", "testing", "docs", "desk", "platforms", "commands", "output")
 """`show`, `diff` and `counts` may read maps; `reference` stands apart, to say what is right."""
 RAW = re.compile(
-    r"operation\.(status|standstill|states|measures|reference|own_maximum|commanded_by)\b"
+    r"operation\.(commands|status|standstill|states|measures|reference|own_maximum|commanded_by)\b"
     r"|\bdrive\.(serial|watchdog|identity)\b|\.scale\.(factor|when|otherwise|choices)\b"
 )
-SHOWN = {"testing/register.py": "the scales of all rows, beside what the reference says they give"}
+SHOWN = {
+    "testing/register.py": "the scales of all rows, beside what the reference says they give",
+    "testing/scenes/told.py": "the stops of a map, for the reference to say their words",
+}
 
 
-def test_no_room_reads_the_line_status_measures_reference_or_watchdog_off_a_map() -> None:
+def test_no_room_reads_the_line_commands_status_measures_reference_or_watchdog_off_a_map() -> None:
     found = [
         f"{path.relative_to(ROOT)}: {one[0]}"
         for room in ROOMS

@@ -11,6 +11,7 @@ from driveblocks.meaning.conduct import reply_delay
 from driveblocks.meaning.measure import PINS
 from driveblocks.meaning.reference import reference
 from driveblocks.meaning.status import status
+from driveblocks.meaning.words import words
 from driveblocks.render.drive import drive_block
 from structured_text.language.tree import StructSpec, TypeDecl, VarDecl
 
@@ -116,6 +117,5 @@ def _diagnosis(drive: Drive) -> Iterator[tuple[str, str]]:
     yield "WarningCode", coded
     if not status(drive).shows("limit"):
         yield "LimitActive", "always FALSE: the drive does not show it"
-    commands = {one.does for one in drive.operation.commands}
     for name, does in _ABILITIES.items():
-        yield name, "TRUE" if does in commands else "FALSE"
+        yield name, "TRUE" if does in words(drive).named else "FALSE"

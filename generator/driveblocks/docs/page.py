@@ -20,6 +20,7 @@ from driveblocks.meaning.reference import reference
 from driveblocks.meaning.serial import serial
 from driveblocks.meaning.status import status
 from driveblocks.meaning.watchdog import feeds, watchdog
+from driveblocks.meaning.words import words
 from driveblocks.platforms import CANONICAL, EXPORTS, PLATFORMS, cost
 from driveblocks.platforms.ladder import diagram
 from driveblocks.platforms.part import Part
@@ -312,7 +313,7 @@ def _page(drive: Drive, checked: Checked, values: Mapping[str, Any], own: Own, p
 
 
 def can(drive: Drive, does: str) -> bool:
-    return any(one.does == does for one in drive.operation.commands)
+    return does in words(drive).named
 
 
 def _reported(drive: Drive) -> list[str]:
@@ -368,9 +369,9 @@ def _matters(notice: Notice) -> bool:
 
 def _open(drive: Drive, one: Absence) -> bool:
     """Whether a gap of the manual is about the line, commands, reference, a scale that a pin needs, or conduct."""
-    words = {each.register for each in drive.operation.commands} | {reference(drive).register}
-    words |= {each.register for each in measures(drive) if not quantity(drive, each.register).factors}
-    about = {"serial", "operation", *CONDUCT, *(f"register {address_text(word)}" for word in words)}
+    told = {each.register for each in words(drive).registers} | {reference(drive).register}
+    told |= {each.register for each in measures(drive) if not quantity(drive, each.register).factors}
+    about = {"serial", "operation", *CONDUCT, *(f"register {address_text(word)}" for word in told)}
     about |= {f"setting {each.id}" for each in drive.settings}
     return not about.isdisjoint(one.about)
 
@@ -386,9 +387,9 @@ def _errata(drive: Drive) -> Iterator[dict[str, str]]:
 
 def _bears(drive: Drive, one: Erratum) -> bool:
     """Whether a misprint is about a word that the block reads or writes, or about a keypad setting."""
-    words = {each.register for each in drive.operation.commands} | {each.register for each in measures(drive)}
-    words.add(reference(drive).register)
-    about = {f"register {address_text(word)}" for word in words} | {f"setting {each.id}" for each in drive.settings}
+    told = {each.register for each in words(drive).registers} | {each.register for each in measures(drive)}
+    told.add(reference(drive).register)
+    about = {f"register {address_text(word)}" for word in told} | {f"setting {each.id}" for each in drive.settings}
     return not about.isdisjoint(one.about)
 
 

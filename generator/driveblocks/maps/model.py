@@ -875,11 +875,6 @@ class Command(Entry):
     note: English | None = fact("what else a person must know", "bits 2 to 7 are terminals and are kept", optional=True)
 
     @property
-    def written_as(self) -> Does:
-        """The command whose words it writes: its own, or the run forward that a negative reference turns round."""
-        return "run_forward" if self.negative else self.does
-
-    @property
     def writes(self) -> tuple["Command | Step", ...]:
         """All its writes in their order, its own word last."""
         return (*self.first, self)

@@ -234,9 +234,14 @@ class Words:
     registers: tuple[CommandWord, ...]
 
     @property
+    def named(self) -> dict[str, Command]:
+        """Each by what it does."""
+        return {one.does: one for one in self.commands}
+
+    @property
     def stop(self) -> Command:
         """The stop by the ramp, which every family has."""
-        return next(one for one in self.commands if one.does == "stop")
+        return self.named["stop"]
 
     def at(self, register: int) -> CommandWord | None:
         """A command register."""

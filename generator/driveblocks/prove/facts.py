@@ -6,7 +6,7 @@ Taken from the map itself, not from what the generator made of it.
 from collections.abc import Iterable, Iterator, Mapping
 
 from driveblocks.maps.form import is_bit
-from driveblocks.maps.model import Does, Drive
+from driveblocks.maps.model import Drive
 from driveblocks.maps.plan import busy, writes_by
 from driveblocks.maps.revision import checked
 from driveblocks.maps.rivals import first_reads, refusals
@@ -39,7 +39,7 @@ NEAR = (
 
 def facts(drive: Drive) -> dict[str, str]:
     """The facts of a family by the names under which the rules have them, as ST."""
-    commands = {one.does: one for one in words(drive).commands}
+    commands = words(drive).named
     shows, speed = status(drive), reference(drive)
     found = {
         "P": drive.prefix,
@@ -74,8 +74,7 @@ def facts(drive: Drive) -> dict[str, str]:
     found["says_by_bus"] = _every(Decoded(drive).holds(each) for each in by_bus)
     found["others_command"] = f"Control.Seen.OthersCommand <> ({found['says_by_bus']})" if by_bus else "TRUE"
     found["says_running"] = _any(Decoded(drive).holds(each) for each in running)
-    every: tuple[Does, ...] = (*MOTIONS, *STOPS, "fault_reset")
-    for does in every:
+    for does in (*MOTIONS, *STOPS, "fault_reset"):
         one = commands.get(does)
         ask = "Slot.Ask[0]" if does in STOPS else "Slot.Ask[1]"
         found[does] = _any(_frames(drive, one, ask)) if one else "FALSE"
@@ -312,7 +311,7 @@ def _reference(drive: Drive) -> dict[str, str]:
     }
 
 
-def _writes(commands: Mapping[Does, Command], form: str) -> Iterator[str]:
+def _writes(commands: Mapping[str, Command], form: str) -> Iterator[str]:
     """Something about each command and the number of its last write, from 0."""
     return (form.format(name=SENT[does], last=len(one.writes) - 1) for does, one in commands.items() if does in SENT)
 

@@ -12,6 +12,7 @@ from driveblocks.maps.plan import merged
 from driveblocks.meaning.measure import measures
 from driveblocks.meaning.quantity import of_row
 from driveblocks.meaning.reference import reference
+from driveblocks.meaning.words import words
 from driveblocks.simulator.habits import Habits
 
 _NAMES = {
@@ -79,7 +80,7 @@ def _bits(row: Register) -> tuple[tuple[int, str], ...]:
 
 def zeros(drive: Drive, known: Iterable[int]) -> str:
     """The registers of a map that read 0 until somebody writes them, as the manual names them; empty for none."""
-    told = {command.register for command in drive.operation.commands} | {reference(drive).register}
+    told = {one.register for one in words(drive).registers} | {reference(drive).register}
     taken, free = {*known, *told}, list[int]()
     for section, row in drive.registers():
         if "r" in (row.access or section.access) and not row.unused:

@@ -18,6 +18,7 @@ from driveblocks.maps.plan import writes_by
 from driveblocks.maps.problem import Refused
 from driveblocks.meaning.polls import Poll, polls
 from driveblocks.meaning.serial import FORMS, USUAL_BITS, USUAL_RATE, character, delivered, serial
+from driveblocks.meaning.words import words as commands
 from structured_text import files
 from structured_text.engines.embedded.library import EmbeddedInstance
 from structured_text.visible import file_name
@@ -196,8 +197,7 @@ def _requests(seen: Controller, size: int) -> dict[str, int]:
     for at in range(size):
         drive = drives.get(number(seen.instance, f"{seen.wiring.line}.Slots[{at}].UnitAddress"))
         if drive:
-            stop = next(one for one in drive.operation.commands if one.does == "stop")
-            found[f"Slots[{at}].Ask[0].FunctionCode"] = writes_by(drive, stop.register)
+            found[f"Slots[{at}].Ask[0].FunctionCode"] = writes_by(drive, commands(drive).stop.last.register)
             found[f"Slots[{at}].Ask[3].Quantity"] = max(each.words for each in polls(drive))
     return found
 

@@ -9,6 +9,7 @@ from driveblocks.meaning.polls import meaning_words, polls
 from driveblocks.meaning.reference import reference
 from driveblocks.meaning.status import status
 from driveblocks.meaning.watchdog import feeds
+from driveblocks.meaning.words import Command, words
 from driveblocks.simulator.move import MOTIONS
 from driveblocks.testing.scenes.drive import ORDERS
 
@@ -21,12 +22,17 @@ class Ability:
 
     def can(self, does: str) -> bool:
         """Whether it has a command."""
-        return any(one.does == does for one in self.drive.operation.commands)
+        return does in words(self.drive).named
 
     def order(self, does: str) -> int:
         """Number of the motion that the drive is commanded for one: a negative reference turns a run forward round."""
-        found = next((one.written_as for one in self.drive.operation.commands if one.does == does), does)
-        return ORDERS[found]
+        one = words(self.drive).named.get(does)
+        return ORDERS["run_forward" if one and one.negative else does]
+
+    @property
+    def run(self) -> Command:
+        """The command that every family has."""
+        return words(self.drive).named["run_forward"]
 
     def shows(self, what: str) -> bool:
         """Whether its status shows something."""
@@ -52,9 +58,7 @@ class Ability:
     @cached_property
     def runs_at_once(self) -> bool:
         """Whether a run is one write, in a register of its own."""
-        operation = self.drive.operation
-        forward = next(one for one in operation.commands if one.does == "run_forward")
-        return not forward.first and forward.register != reference(self.drive).register
+        return len(self.run.writes) == 1 and self.run.last.register != reference(self.drive).register
 
     @cached_property
     def feeds(self) -> str:

@@ -7,6 +7,7 @@ from driveblocks.maps.rivals import first_reads
 from driveblocks.meaning.measure import measures
 from driveblocks.meaning.serial import serial
 from driveblocks.meaning.watchdog import feeds, watchdog
+from driveblocks.meaning.words import words
 from driveblocks.testing.scenes.ability import Ability
 from driveblocks.testing.scenes.motor import POWER, STANDS, run
 from driveblocks.testing.scenes.reason import REASONS
@@ -172,7 +173,7 @@ def _stale() -> Iterator[Step]:
 
 def _follow(drive: Drive) -> Iterator[Step]:
     """Each state on the way to a run is proved first. The time is at least that of two reads in turn."""
-    run = next(one for one in drive.operation.commands if one.does == "run_forward")
+    states = len(words(drive).named["run_forward"].writes) - 1
     ignored: Shows = {
         "Fate.Local": True,
         "RunForward": True,
@@ -180,7 +181,7 @@ def _follow(drive: Drive) -> Iterator[Step]:
         "Pins.Settings.StaleMs": 1000,
     }
     yield Step("it does nothing", MS | ignored, why("NOT_FOLLOWED"), 30000, {
-        ".WaitedMs": _after(1005, 1080 + 80 * len(run.first)),
+        ".WaitedMs": _after(1005, 1080 + 80 * states),
     })  # fmt: skip
 
 

@@ -195,7 +195,7 @@ def _reads_of(drive: Drive) -> dict[str, set[int]]:
 def _orders(drive: Drive) -> Iterator[Row]:
     """Each write of each command; what is no command is a stop."""
     numbers = KINDS | ORDERS | {"fault_reset": 9}
-    known = {one.does: one for one in words(drive).commands}
+    known = words(drive).named
     several = _several(drive)
     none = ["none", {"Order": 0}, _write(known["stop"], 0, several=several)]
     yield none

@@ -7,6 +7,7 @@ from driveblocks.maps.trust import second_hand
 from driveblocks.meaning.reference import reference
 from driveblocks.meaning.serial import serial
 from driveblocks.meaning.status import status
+from driveblocks.meaning.words import words
 from driveblocks.testing.scenes.ability import Ability
 from driveblocks.testing.scenes.drive import mark
 from driveblocks.testing.scenes.scene import Scene, Shows, Step, scene, script, why
@@ -123,7 +124,7 @@ def _motion(can: Ability, does: str) -> Iterator[Step]:
         "Slots[0].Ask[1].Number <> Slots[0].Answer[1].Number": True, "StopConfirmed": False,
     })  # fmt: skip
     yield Step("the start is sent", {}, f"{why('STARTING')} OR {pace}", 200, {"StopConfirmed": False})
-    sent = next(one.register for one in can.drive.operation.commands if one.does == does)
+    sent = words(can.drive).named[does].last.register
     own = sent != reference(can.drive).register
     yield Step("it ramps up", {}, f"Motor.Running AND ({pace})", 1000, {
         "Seen.Order": can.order(does), "Slots[0].Once": own, "Slots[0].Begins": own,
@@ -264,8 +265,8 @@ def stops(can: Ability) -> Iterator[Scene]:
         ("CoastStop", {"CoastStop": True}, {"CoastStop": False}, "STOP_PIN", can.kind("coast_stop")),
         ("StopAll", {"Pins.StopAll": True}, {"Pins.StopAll": False}, "STOP_ALL", 1),
     )
-    for words, sets, frees, reason, kind in rows:
-        yield scene(words, POWER, run(), *_stopped(sets, frees, reason, kind))
+    for name, sets, frees, reason, kind in rows:
+        yield scene(name, POWER, run(), *_stopped(sets, frees, reason, kind))
     yield scene("a stop is as quick as it says", POWER, run(), *_quick())
     yield scene("the run pin falls", POWER, run(), *_released())
     yield scene("a stop grows stronger", POWER, run(), *_stronger(can))
@@ -659,9 +660,7 @@ def _not_followed() -> Iterator[Step]:
 
 
 def _unacknowledged(can: Ability, what: str, reason: str) -> Iterator[Step]:
-    operation = can.drive.operation
-    forward = next(one for one in operation.commands if one.does == "run_forward")
-    register = reference(can.drive).register if what == "reference" else forward.register
+    register = reference(can.drive).register if what == "reference" else can.run.last.register
     if register == reference(can.drive).register and what == "run":
         return
     lost: Shows = {"Fate.Skips": True, "Fate.Skipped": word(mark(register)), "RunForward": True}
@@ -672,9 +671,7 @@ def _unacknowledged(can: Ability, what: str, reason: str) -> Iterator[Step]:
 
 def _unsaid(can: Ability) -> Iterator[Step]:
     """The status is read before a run is written again: it runs, so it is acknowledged."""
-    forward = next(one for one in can.drive.operation.commands if one.does == "run_forward")
-    register = forward.register
-    lost: Shows = {"Fate.Unsaid": True, "Fate.Skipped": word(mark(register)), "RunForward": True}
+    lost: Shows = {"Fate.Unsaid": True, "Fate.Skipped": word(mark(can.run.last.register)), "RunForward": True}
     yield Step("it runs, and nobody says so", lost, "Motor.AtSpeed", 4000, {
         "Seen.Starts": 1, "Seen.Runs": 1, "Running": True,
     })  # fmt: skip
@@ -683,7 +680,7 @@ def _unsaid(can: Ability) -> Iterator[Step]:
 
 def _tries(can: Ability) -> Iterator[Step]:
     """One attempt and three more, with a look at the status before each."""
-    register = next(one.register for one in can.drive.operation.commands if one.does == "run_forward")
+    register = can.run.last.register
     lost: Shows = {"Fate.Unsaid": True, "Fate.Skipped": word(mark(register)), "Fate.Local": True, "RunForward": True}
     before: Shows = {".Mark": "Seen.Writes - Seen.References"}
     yield Step("four times unanswered", lost | before, why("NO_RUN"), 6000, {
