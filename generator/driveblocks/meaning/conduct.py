@@ -3,9 +3,10 @@
 from collections.abc import Iterator
 
 from driveblocks.maps.form import address_text, bits_text
-from driveblocks.maps.model import Drive, Setting
+from driveblocks.maps.model import Drive
 from driveblocks.meaning import measure
 from driveblocks.meaning.serial import serial
+from driveblocks.meaning.setting import Setting, setting
 from driveblocks.meaning.status import status
 from driveblocks.meaning.watchdog import Watchdog, watchdog
 
@@ -30,7 +31,7 @@ def silent_line(drive: Drive) -> str:
 
 
 def _watchdog(drive: Drive, own: Watchdog) -> Iterator[str]:
-    chosen = next((each for each in drive.settings if each.id == own.chosen_by), None)
+    chosen = setting(drive, own.chosen_by)
     does = ", ".join(_reaction(*each, chosen) for each in own.reactions)
     yield f"{chosen.id} = {does}" if chosen else does
     if own.off is not None:
@@ -51,8 +52,8 @@ def _watchdog(drive: Drive, own: Watchdog) -> Iterator[str]:
 def _reaction(value: int | None, does: str, chosen: Setting | None) -> str:
     if chosen is None:
         return _DOES[does]
-    named = next((f" {each.name.lower()}" for each in chosen.values if each.value == value), "")
-    return f"{value}{named}{' (factory)' * (chosen.default == str(value))}: {_DOES[does]}"
+    factory = " (factory)" if chosen.default == str(value) else ""
+    return f"{value} {chosen.named(value).lower()}".strip() + f"{factory}: {_DOES[does]}"
 
 
 def reply_delay(drive: Drive) -> str | None:

@@ -1,11 +1,11 @@
 """The drive's own watchdog of a silent line: what feeds it, when it acts, and what the drive then does."""
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 from decimal import Decimal
 
-from driveblocks.maps.model import Drive, Setting, SilenceTime, kept
+from driveblocks.maps.model import Drive, SilenceTime, kept
 from driveblocks.meaning.citation import Citation, cited
+from driveblocks.meaning.setting import setting
 
 
 @dataclass(frozen=True)
@@ -41,14 +41,14 @@ class Watchdog:
 @kept
 def watchdog(drive: Drive) -> Watchdog | None:
     """The watchdog of a drive; None where the manual knows of none."""
-    one, settings = drive.watchdog, {each.id: each for each in drive.settings}
+    one = drive.watchdog
     if one is None:
         return None
     off = one.disabled_by
     return Watchdog(
         said=cited(one),
         feeds=one.feeds,
-        time=_time(one.time, settings) if one.time else None,
+        time=_time(drive, one.time) if one.time else None,
         chosen_by=one.chosen_by,
         reactions=tuple((each.value, each.does) for each in one.reactions),
         off=(off.setting, off.value) if off else None,
@@ -56,9 +56,9 @@ def watchdog(drive: Drive) -> Watchdog | None:
     )
 
 
-def _time(time: SilenceTime, settings: Mapping[str, Setting]) -> Time:
-    row, count = settings.get(time.setting or ""), time.milliseconds
-    least, most = (row.range.min * count, row.range.max * count) if row and row.range else (None, None)
+def _time(drive: Drive, time: SilenceTime) -> Time:
+    by, count = setting(drive, time.setting), time.milliseconds
+    least, most = (each * count for each in by.bounds) if by and by.bounds else (None, None)
     return Time(cited(time), time.setting, time.register, count, least, most)
 
 
