@@ -8,7 +8,7 @@ ROOMS = ("render", "simulator", "prove", "testing", "docs", "desk", "platforms",
 """`show`, `diff` and `counts` may read maps; `reference` stands apart, to say what is right."""
 RAW = re.compile(
     r"operation\.(commands|status|standstill|states|measures|reference|own_maximum|commanded_by)\b"
-    r"|\bdrive\.(serial|watchdog|identity)\b|\.scale\.(factor|when|otherwise|choices)\b"
+    r"|\bdrive\.(serial|watchdog|identity|settings)\b|\.scale\.(factor|when|otherwise|choices)\b"
 )
 SHOWN = {
     "testing/register.py": "the scales of all rows, beside what the reference says they give",
@@ -16,7 +16,7 @@ SHOWN = {
 }
 
 
-def test_no_room_reads_the_line_commands_status_measures_reference_or_watchdog_off_a_map() -> None:
+def test_no_room_reads_line_settings_commands_status_measures_reference_or_watchdog_off_a_map() -> None:
     found = [
         f"{path.relative_to(ROOT)}: {one[0]}"
         for room in ROOMS

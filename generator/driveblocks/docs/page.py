@@ -11,13 +11,14 @@ from driveblocks.docs.members import members
 from driveblocks.docs.pins import Pin, pins
 from driveblocks.maps import inventory, rivals, trust
 from driveblocks.maps.form import address_text
-from driveblocks.maps.model import Absence, Drive, Erratum, Notice, Setting
+from driveblocks.maps.model import Absence, Drive, Erratum, Notice
 from driveblocks.meaning import conduct
 from driveblocks.meaning.measure import PINS, measures, own_maximum
 from driveblocks.meaning.polls import Poll, polls, schedule, wire_ms
 from driveblocks.meaning.quantity import quantity
 from driveblocks.meaning.reference import reference
 from driveblocks.meaning.serial import serial
+from driveblocks.meaning.setting import Setting, settings
 from driveblocks.meaning.status import status
 from driveblocks.meaning.watchdog import feeds, watchdog
 from driveblocks.meaning.words import words
@@ -278,10 +279,9 @@ def _page(drive: Drive, checked: Checked, values: Mapping[str, Any], own: Own, p
         errata=list(_errata(drive)),
         cannot=[words for does, words in ABILITIES.items() if not can(drive, does)],
         hides=[pin.name for pin in values["outputs"] if pin.idle],
-        settings=drive.settings,
-        run_sources=[each for each in drive.settings if each.needed and each.needed.by_terminals is not None],
-        stay=[each for each in drive.settings if _stays(each)],
-        named={each.id: {value.value: value.name for value in each.values} for each in drive.settings},
+        settings=settings(drive),
+        run_sources=[each for each in settings(drive) if each.needed and each.needed.by_terminals is not None],
+        stay=[each for each in settings(drive) if _stays(each)],
         hazards=[each for each in drive.notices if _matters(each)],
         nevers=list(conduct.nevers(drive)),
         open=open_,
@@ -372,7 +372,7 @@ def _open(drive: Drive, one: Absence) -> bool:
     told = {each.register for each in words(drive).registers} | {reference(drive).register}
     told |= {each.register for each in measures(drive) if not quantity(drive, each.register).factors}
     about = {"serial", "operation", *CONDUCT, *(f"register {address_text(word)}" for word in told)}
-    about |= {f"setting {each.id}" for each in drive.settings}
+    about |= {f"setting {each.id}" for each in settings(drive)}
     return not about.isdisjoint(one.about)
 
 
@@ -389,7 +389,7 @@ def _bears(drive: Drive, one: Erratum) -> bool:
     """Whether a misprint is about a word that the block reads or writes, or about a keypad setting."""
     told = {each.register for each in words(drive).registers} | {each.register for each in measures(drive)}
     told.add(reference(drive).register)
-    about = {f"register {address_text(word)}" for word in told} | {f"setting {each.id}" for each in drive.settings}
+    about = {f"register {address_text(word)}" for word in told} | {f"setting {each.id}" for each in settings(drive)}
     return not about.isdisjoint(one.about)
 
 

@@ -556,14 +556,14 @@ class Scale(Entry):
     proof: Word | None = fact("id of the example frame that proves it", "read_frequency_reply", optional=True)
 
     @property
-    def choices(self) -> tuple[tuple[Condition | None, Decimal], ...]:
+    def choices(self) -> "tuple[Scale | OtherScale, ...]":
         """Each factor with what it holds for."""
-        return (self.when, self.factor), *((one.when, one.factor) for one in self.otherwise)
+        return self, *self.otherwise
 
     @property
     def conditions(self) -> tuple[Condition, ...]:
         """On what the factor depends."""
-        return tuple(when for when, _ in self.choices if when is not None)
+        return tuple(one.when for one in self.choices if one.when is not None)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -6,8 +6,9 @@ from driveblocks.maps.form import address_text, bits_text
 from driveblocks.maps.model import Drive
 from driveblocks.meaning import measure
 from driveblocks.meaning.serial import serial
+from driveblocks.meaning.setting import Setting, setting
 from driveblocks.meaning.status import status
-from driveblocks.meaning.watchdog import Reaction, Watchdog, watchdog
+from driveblocks.meaning.watchdog import Watchdog, watchdog
 
 UNKNOWN = "the manual does not say"
 _DOES = {
@@ -26,12 +27,13 @@ _TRIPS = {
 def silent_line(drive: Drive) -> str:
     """What the motor does when the cable is cut."""
     own = watchdog(drive)
-    return UNKNOWN + ": count on a motor that runs on" if own is None else "; ".join(_watchdog(own))
+    return UNKNOWN + ": count on a motor that runs on" if own is None else "; ".join(_watchdog(drive, own))
 
 
-def _watchdog(own: Watchdog) -> Iterator[str]:
-    does = ", ".join(_reaction(one, own.chosen_by) for one in own.reactions)
-    yield f"{own.chosen_by} = {does}" if own.chosen_by else does
+def _watchdog(drive: Drive, own: Watchdog) -> Iterator[str]:
+    chosen = setting(drive, own.chosen_by)
+    does = ", ".join(_reaction(*each, chosen) for each in own.reactions)
+    yield f"{chosen.id} = {does}" if chosen else does
     if own.off is not None:
         yield f"{own.off[0]} = {own.off[1]}: the motor runs on, whatever else is set"
     time, fed = own.time, own.feeds
@@ -47,9 +49,11 @@ def _watchdog(own: Watchdog) -> Iterator[str]:
         yield own.note
 
 
-def _reaction(one: Reaction, chosen_by: str | None) -> str:
-    named = f" {one.name.lower()}" if one.name else ""
-    return f"{one.value}{named}{' (factory)' * one.factory}: {_DOES[one.does]}" if chosen_by else _DOES[one.does]
+def _reaction(value: int | None, does: str, chosen: Setting | None) -> str:
+    if chosen is None:
+        return _DOES[does]
+    factory = " (factory)" if chosen.default == str(value) else ""
+    return f"{value} {chosen.named(value).lower()}".strip() + f"{factory}: {_DOES[does]}"
 
 
 def reply_delay(drive: Drive) -> str | None:

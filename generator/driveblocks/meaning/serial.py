@@ -1,6 +1,5 @@
 """The serial line of a drive: modes, bit rates, characters, addresses, pauses, and what it has as delivered."""
 
-import re
 from collections.abc import Iterable
 from dataclasses import dataclass
 from decimal import Decimal
@@ -8,6 +7,7 @@ from math import ceil
 
 from driveblocks.maps.model import Drive, FormatCode, ReplyDelay, kept
 from driveblocks.meaning.citation import Citation, cited
+from driveblocks.meaning.setting import setting
 from driveblocks.modbus.frame import Mode
 
 FORMS = ("8N1", "8E1", "8O1", "8N2", "7E1", "7O1", "7N2")
@@ -148,9 +148,8 @@ def serial(drive: Drive) -> Serial:
 
 
 def _delay(drive: Drive, one: ReplyDelay) -> Delay:
-    setting = next((each for each in drive.settings if each.id == one.setting), None)
-    said = re.match("[0-9]{1,9}", (setting and setting.default) or "")
-    counts = int(said[0]) if said else None, setting.range.max if setting and setting.range else None
+    by = setting(drive, one.setting)
+    counts = (by.factory, by.bounds[1] if by.bounds else None) if by else (None, None)
     factory, most = (None if each is None else ceil(each * one.milliseconds) for each in counts)
     return Delay(cited(one), one.setting, factory, most, one.milliseconds)
 

@@ -1,11 +1,11 @@
 """The drive's own watchdog of a silent line: what feeds it, when it acts, and what the drive then does."""
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 from decimal import Decimal
 
-from driveblocks.maps.model import Drive, Setting, SilenceTime, kept
+from driveblocks.maps.model import Drive, SilenceTime, kept
 from driveblocks.meaning.citation import Citation, cited
+from driveblocks.meaning.setting import setting
 
 
 @dataclass(frozen=True)
@@ -22,17 +22,6 @@ class Time:
 
 
 @dataclass(frozen=True)
-class Reaction:
-    """What the drive does, by the value of the setting that chooses it, if one does."""
-
-    value: int | None
-    name: str
-    """What the manual calls the value."""
-    factory: bool
-    does: str
-
-
-@dataclass(frozen=True)
 class Watchdog:
     """What a map says of it."""
 
@@ -41,7 +30,9 @@ class Watchdog:
     """A read, a written reference, a run command, or any good frame; None: the manual does not say."""
     time: Time | None
     chosen_by: str | None
-    reactions: tuple[Reaction, ...]
+    """The setting that chooses what the drive does."""
+    reactions: tuple[tuple[int | None, str], ...]
+    """Its values, and what the drive does with each."""
     off: tuple[str, int] | None
     """The setting that switches it off, and its value."""
     note: str | None
@@ -50,29 +41,24 @@ class Watchdog:
 @kept
 def watchdog(drive: Drive) -> Watchdog | None:
     """The watchdog of a drive; None where the manual knows of none."""
-    one, settings = drive.watchdog, {each.id: each for each in drive.settings}
+    one = drive.watchdog
     if one is None:
         return None
-    chosen, off = settings.get(one.chosen_by or ""), one.disabled_by
+    off = one.disabled_by
     return Watchdog(
         said=cited(one),
         feeds=one.feeds,
-        time=_time(one.time, settings) if one.time else None,
-        chosen_by=chosen.id if chosen else None,
-        reactions=tuple(_reaction(each.value, each.does, chosen) for each in one.reactions),
+        time=_time(drive, one.time) if one.time else None,
+        chosen_by=one.chosen_by,
+        reactions=tuple((each.value, each.does) for each in one.reactions),
         off=(off.setting, off.value) if off else None,
         note=one.note,
     )
 
 
-def _reaction(value: int | None, does: str, chosen: Setting | None) -> Reaction:
-    name = next((each.name for each in (chosen.values if chosen else ()) if each.value == value), "")
-    return Reaction(value, name, chosen is not None and chosen.default == str(value), does)
-
-
-def _time(time: SilenceTime, settings: Mapping[str, Setting]) -> Time:
-    row, count = settings.get(time.setting or ""), time.milliseconds
-    least, most = (row.range.min * count, row.range.max * count) if row and row.range else (None, None)
+def _time(drive: Drive, time: SilenceTime) -> Time:
+    by, count = setting(drive, time.setting), time.milliseconds
+    least, most = (each * count for each in by.bounds) if by and by.bounds else (None, None)
     return Time(cited(time), time.setting, time.register, count, least, most)
 
 

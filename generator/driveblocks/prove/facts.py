@@ -51,7 +51,7 @@ def facts(drive: Drive) -> dict[str, str]:
         "sent_word": f"Slot.Ask[1].Words[{speed.quantity.low - speed.register}]",
         "holds_reference": _is_reference(drive),
         "standstill": _every(_holds(drive, each) for each in shows.standstill.patterns),
-        "proof_since": _every(f"Reads.Since{number}" for number in roles(drive).proof),
+        "proof_since": _each("Reads.Since{n}", roles(drive).proof),
         **_read(drive),
         **_shown(drive),
         **_reference(drive),
@@ -193,43 +193,36 @@ def _read(drive: Drive) -> dict[str, str]:
         f"AND (Ask.FunctionCode = {reads[index].function})"
         for turn, index in enumerate(schedule(reads))
     ]
-    fast = roles(drive).fast
+    fast, numbers = roles(drive).fast, range(1, len(reads) + 1)
     return {
         "words_taken": _every(taken),
         "settings_read": _settings(drive),
         "turns": _every(turns),
-        "oldest": _every(f"StatusAgeMs >= Age{number}" for number in fast),
+        "oldest": _each("StatusAgeMs >= Age{n}", fast),
         "one_is_oldest": _any(f"StatusAgeMs = Age{number}" for number in fast),
-        "status_age": _every(f"Reads.StatusAgeMs >= Reads.Age{number}" for number in fast)
+        "status_age": _each("Reads.StatusAgeMs >= Reads.Age{n}", fast)
         + f" AND ({_any(f'Reads.StatusAgeMs = Reads.Age{number}' for number in fast)})",
-        "proves": _every(f"Sure{number}" for number in roles(drive).proof),
-        "sure": _every(
-            f"(Sure{number} = (Since{number} AND (Since{number}Ms > LongestMs)))" for number in range(1, len(reads) + 1)
-        ),
-        "sure_since": _every(
-            f"(NOT Since{number} OR (Since{number}Ms > LongestMs))" for number in range(1, len(reads) + 1)
-        ),
-        "believed_since": _every(
-            f"(NOT Since{number} OR Was.Since{number} AND NOT (Anew OR Forget OR Reread) OR {BELIEVED})"
-            for number in range(1, len(reads) + 1)
+        "proves": _each("Sure{n}", roles(drive).proof),
+        "sure": _each("(Sure{n} = (Since{n} AND (Since{n}Ms > LongestMs)))", numbers),
+        "sure_since": _each("(NOT Since{n} OR (Since{n}Ms > LongestMs))", numbers),
+        "believed_since": _each(
+            f"(NOT Since{{n}} OR Was.Since{{n}} AND NOT (Anew OR Forget OR Reread) OR {BELIEVED})", numbers
         ),
         "speed": _any(f"({_comes(number, reads[number - 1])}) AND {BELIEVED}" for number in roles(drive).speed),
-        "ages": _every(
-            f"(Age{number} = MB_Plus(Number := Was.Age{number}, More := PassedMs)) "
-            f"OR Fresh AND (Entry = {number}) AND (Age{number} = PassedMs)"
-            for number in range(1, len(reads) + 1)
+        "ages": _each(
+            "(Age{n} = MB_Plus(Number := Was.Age{n}, More := PassedMs)) "
+            "OR Fresh AND (Entry = {n}) AND (Age{n} = PassedMs)",
+            numbers,
         ),
-        "since": _every(
-            f"NOT Since{number} OR Was.Since{number} OR Fresh AND (Entry = {number})"
-            for number in range(1, len(reads) + 1)
-        ),
-        "none_since": _every(
-            f"NOT Since{number} OR Fresh AND (Entry = {number})" for number in range(1, len(reads) + 1)
-        ),
-        "all_old": _every(
-            f"(Age{number} = 65535) OR Fresh AND (Entry = {number})" for number in range(1, len(reads) + 1)
-        ),
+        "since": _each("NOT Since{n} OR Was.Since{n} OR Fresh AND (Entry = {n})", numbers),
+        "none_since": _each("NOT Since{n} OR Fresh AND (Entry = {n})", numbers),
+        "all_old": _each("(Age{n} = 65535) OR Fresh AND (Entry = {n})", numbers),
     }
+
+
+def _each(form: str, numbers: Iterable[int]) -> str:
+    """That something is so of each of some reads."""
+    return _every(form.format(n=number) for number in numbers)
 
 
 def _settings(drive: Drive) -> str:
@@ -267,8 +260,8 @@ def _shown(drive: Drive) -> dict[str, str]:
     return {
         "ready_shown": f"(CommOk AND ({_any(ready)}))" if ready else "TRUE",
         "verified": _every(word for _, word in verify),
-        "settings_since": _every(f"Reads.Sure{number}" for number in roles(drive).verify),
-        "settings_seen": _every(f"Reads.Since{number}" for number in roles(drive).setting) if verify else "FALSE",
+        "settings_since": _each("Reads.Sure{n}", roles(drive).verify),
+        "settings_seen": _each("Reads.Since{n}", roles(drive).setting) if verify else "FALSE",
         "settled_read": "(NOT Known.Settled.Proved OR Reads.SettingsRead)" if roles(drive).verify else "TRUE",
         "settings_said": _every(f"({decoded}) = ({word})" for decoded, word in verify),
         "said": _every(said),

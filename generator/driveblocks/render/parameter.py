@@ -10,6 +10,7 @@ from driveblocks.maps.plan import Plan, holding, merged
 from driveblocks.meaning.measure import own_maximum
 from driveblocks.meaning.reference import reference
 from driveblocks.meaning.serial import serial
+from driveblocks.meaning.setting import settings
 from driveblocks.meaning.words import words
 from driveblocks.render.context import source_of
 
@@ -73,7 +74,7 @@ def may_write(drive: Drive, allowed: Plan) -> MayWrite:
 
 def _settings(drive: Drive) -> Iterator[int | None]:
     """The registers of the settings, and of the maximum that the full scale is compared with."""
-    yield from (one.register for one in drive.settings)
+    yield from (one.register for one in settings(drive))
     yield maximum.register if (maximum := own_maximum(drive)) else None
 
 
@@ -223,9 +224,7 @@ def _ids(drive: Drive) -> Iterator[tuple[str, int, int]]:
     for _, row in drive.registers():
         if row.id is not None and not row.unused and space_of(row.address.first) == "holding":
             yield row.id, row.address.first, len(row.address)
-    for setting in drive.settings:
-        if setting.register is not None:
-            yield setting.id, setting.register, 1
+    yield from ((one.id, one.register, 1) for one in settings(drive) if one.register is not None)
 
 
 def _letters(known: dict[_Key, int]) -> dict[int, dict[int, Group]]:

@@ -4,6 +4,7 @@ from collections.abc import Iterator
 
 from driveblocks.maps.model import Drive
 from driveblocks.maps.trust import second_hand
+from driveblocks.meaning.measure import PINS as MEASURED
 from driveblocks.meaning.reference import reference
 from driveblocks.meaning.serial import serial
 from driveblocks.meaning.status import status
@@ -53,18 +54,12 @@ def stand(shows: Shows | None = None, ms: int = 4000) -> Step:
 
 # ---------------------------------------------------------------- starts
 
-_MEASURES = (
-    "OutputFrequency", "OutputCurrent", "OutputVoltage", "DcBusVoltage", "OutputPower", "OutputSpeed", "OutputTorque",
-    "RelativePower", "DriveTemperature", "MotorTemperature", "OperatingTime", "Energy",
-)  # fmt: skip
 _MORE = {
-    "output_speed": ("OutputSpeed", "Rpm", 900.0), "output_torque": ("OutputTorque", "Percent", 50.0),
-    "relative_power": ("RelativePower", "Percent", 30.0), "drive_temperature": ("DriveTemperature", "DegC", 40.0),
-    "motor_temperature": ("MotorTemperature", "DegC", 50.0), "operating_time": ("OperatingTime", "H", 100.0),
-    "energy": ("Energy", "KWh", 12.0),
+    "output_speed": 900.0, "output_torque": 50.0, "relative_power": 30.0, "drive_temperature": 40.0,
+    "motor_temperature": 50.0, "operating_time": 100.0, "energy": 12.0,
 }  # fmt: skip
-"""What else a drive can show -> its member of Diagnosis, its unit, and the value at 30 Hz of the simulated motor."""
-_UNMEASURED: Shows = {f"Motor.Diagnosis.{each}Valid": False for each in _MEASURES}
+"""What else a drive can show, and its value at 30 Hz of the simulated motor."""
+_UNMEASURED: Shows = {f"Motor.Diagnosis.{each.valid}": False for each in MEASURED.values()}
 
 
 def starts(can: Ability) -> Iterator[Scene]:
@@ -155,21 +150,14 @@ def _measured(can: Ability, *, jog: bool) -> Shows:
     if jog:
         return {}
     found: Shows = {"OutputVoltageValid": can.measures("output_voltage")}
-    if can.measures("output_voltage"):
-        found["OutputVoltageV"] = 240.0
-    if can.measures("dc_bus_voltage"):
-        found["DcBusVoltageV"] = 540.0
-    if can.measures("output_power"):
-        found["OutputPowerKW"] = 1.2
-    for what, (name, unit, value) in _MORE.items():
-        found[f"{name}{unit}"] = value if can.measures(what) else 0.0
-        found[f"{name}Valid"] = can.measures(what)
-    for name, what in (
-        ("OutputCurrent", "output_current"),
-        ("DcBusVoltage", "dc_bus_voltage"),
-        ("OutputPower", "output_power"),
-    ):
-        found[f"{name}Valid"] = can.measures(what)
+    for what, value in (("output_voltage", 240.0), ("dc_bus_voltage", 540.0), ("output_power", 1.2)):
+        if can.measures(what):
+            found[f"{MEASURED[what].name}{MEASURED[what].unit}"] = value
+    for what, value in _MORE.items():
+        found[f"{MEASURED[what].name}{MEASURED[what].unit}"] = value if can.measures(what) else 0.0
+        found[MEASURED[what].valid] = can.measures(what)
+    for what in ("output_current", "dc_bus_voltage", "output_power"):
+        found[MEASURED[what].valid] = can.measures(what)
     return found
 
 
