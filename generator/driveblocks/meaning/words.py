@@ -28,8 +28,10 @@ DOES: dict[Act, str] = {
     "hands_over": "gives the drive to somebody else",
 }  # fmt: skip
 """What each act is, in words."""
-KINDS: tuple[Act, ...] = ("coasts", "quick_stops", "stops", "ends_jog")
-"""How a word stops the motor; of several at once, what comes first wins."""
+KINDS: dict[Act, Does] = {
+    "coasts": "coast_stop", "quick_stops": "quick_stop", "stops": "stop", "ends_jog": "jog_stop",
+}  # fmt: skip
+"""How a word stops the motor, and the command that does; of several at once, what comes first wins."""
 
 
 class Held(NamedTuple):

@@ -4,13 +4,13 @@ from collections.abc import Mapping
 
 from driveblocks.maps.model import Drive
 from driveblocks.meaning.pattern import WORD
-from driveblocks.meaning.words import CommandWord, Held
+from driveblocks.meaning.words import KINDS, MOTIONS, STOPS, CommandWord, Held
 from driveblocks.simulator.copies import RPM_OF_ONE_PAIR, Copy
 from driveblocks.simulator.face import Situation
 from driveblocks.simulator.habits import Habits
 from driveblocks.simulator.memory import Memory
 from driveblocks.simulator.motor import Motor
-from driveblocks.simulator.move import BY_ACT, MOTIONS, STATE, STOPS, Move, Need
+from driveblocks.simulator.move import STATE, Move, Need
 from driveblocks.simulator.plate import plate
 from driveblocks.simulator.table import Gauge, table
 
@@ -324,7 +324,7 @@ class Machine:
         if resets and (resets.effect.by != "edge" or word.gives("resets", was) is None):
             self.reset()
         if not self._goes(word, was) and kind and not self.keeps_running:
-            self._obey(BY_ACT[kind], before, [])
+            self._obey(KINDS[kind], before, [])
 
     def _goes(self, word: CommandWord, was: Held) -> bool:
         """Whether what is in a command register may move the motor; then it does, where the drive's state lets it."""

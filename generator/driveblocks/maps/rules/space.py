@@ -8,8 +8,8 @@ from driveblocks.maps.pair import is_first
 from driveblocks.maps.plan import reads_by, used, writes_by
 from driveblocks.maps.problem import Place, Report
 from driveblocks.meaning.polls import fast_words, slow_words
+from driveblocks.meaning.words import STOPS
 
-STOPS = ("stop", "quick_stop", "coast_stop", "jog_stop")
 WORD, SIGNED = 0xFFFF, 0x7FFF
 
 

@@ -17,9 +17,7 @@ from driveblocks.meaning.words import (
     words,
 )
 
-_KIND: dict[Does, Act] = {
-    "stop": "stops", "quick_stop": "quick_stops", "coast_stop": "coasts", "jog_stop": "ends_jog",
-}  # fmt: skip
+_KIND = {does: act for act, does in KINDS.items()}
 """How each stop stops."""
 _CORRECT = "correct the command, or what the register's row says that it `does`"
 

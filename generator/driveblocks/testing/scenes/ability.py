@@ -9,9 +9,8 @@ from driveblocks.meaning.polls import meaning_words, polls
 from driveblocks.meaning.reference import reference
 from driveblocks.meaning.status import status
 from driveblocks.meaning.watchdog import feeds
-from driveblocks.meaning.words import Command, words
-from driveblocks.simulator.move import MOTIONS
-from driveblocks.testing.scenes.drive import ORDERS
+from driveblocks.meaning.words import MOTIONS, Command, words
+from driveblocks.render.constants import ORDERS, STOPS
 
 
 @dataclass(frozen=True)
@@ -44,8 +43,7 @@ class Ability:
 
     def kind(self, wanted: str) -> int:
         """Number of the stop that is sent where one is wanted: the drive's own, else its stop."""
-        kinds = {"stop": 1, "quick_stop": 2, "coast_stop": 3}
-        return kinds[wanted if self.can(wanted) else "stop"]
+        return STOPS[wanted if self.can(wanted) else "stop"]
 
     @cached_property
     def absent(self) -> frozenset[str]:
