@@ -42,7 +42,7 @@ def worst(block: str, drive: str) -> rivals.Stop:
     [
         ("PF525", "GD200A", "motion", "its run forward"),
         ("JSCC", "CHF", "motion", "its jog forward"),
-        ("GD200A", "PF4", "motion", 'its bit 2 `Jog` at 1'),
+        ("GD200A", "PF4", "motion", "its bit 2 `Jog` at 1"),
         ("SN300G5", "JSCC", "other", "one of its parameters"),
         ("PF4", "PF525", "stop", "its stop"),
         ("CHF", "JSCC", "unknown", "its map lists no such value"),
