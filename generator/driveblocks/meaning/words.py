@@ -98,18 +98,6 @@ class Field:
         found: list[tuple[int | None, Effect]] = [each for each in listed.items() if (each[0] ^ word) & known == 0]
         return [*found, *([(None, self.rest)] if 1 << (self.ones & ~known).bit_count() > len(found) else [])]
 
-    def called(self, value: int | None, effect: Effect) -> str:
-        """A value of it in words: ``bit 1 `Start` at 1``, ``value 5 `Stop```."""
-        span, number = Span(self.first, self.last), "" if value is None else str(value)
-        told = [
-            f"bit{'s' * (len(span) > 1)} {bits_text(span)}",
-            self.name and f"`{self.name}`",
-            number and f"at {number}",
-        ]
-        if self.ones == WORD:
-            told = ["value", number]
-        return " ".join(each for each in (*told, effect.name and f"`{effect.name}`") if each)
-
 
 class Cause(NamedTuple):
     """A field of a word, its value, None for one that is not known, and what it does."""
@@ -119,8 +107,16 @@ class Cause(NamedTuple):
     effect: Effect
 
     def __str__(self) -> str:
-        """Name it: ``bit 1 `Start` at 1``."""
-        return self.field.called(self.value, self.effect)
+        """Name it: ``bit 1 `Start` at 1``, ``value 5 `Stop```."""
+        span, name, number = (
+            Span(self.field.first, self.field.last),
+            self.field.name,
+            "" if self.value is None else self.value,
+        )
+        told = [f"bit{'s' * (len(span) > 1)} {bits_text(span)}", name and f"`{name}`", number != "" and f"at {number}"]
+        if self.field.ones == WORD:
+            told = ["value", str(number)]
+        return " ".join(each for each in (*told, self.effect.name and f"`{self.effect.name}`") if each)
 
 
 @dataclass(frozen=True)

@@ -11,7 +11,6 @@ from driveblocks.meaning.words import (
     UNKNOWN,
     Cause,
     Command,
-    CommandWord,
     Words,
     Write,
     words,
@@ -19,6 +18,7 @@ from driveblocks.meaning.words import (
 
 _KIND = {does: act for act, does in KINDS.items()}
 """How each stop stops."""
+_ORDER = "write the direction first and the run bit last"
 _CORRECT = "correct the command, or what the register's row says that it `does`"
 
 
@@ -27,9 +27,7 @@ def check(drive: Drive, good: set[Does], report: Report) -> None:
     known = words(drive)
     commands = [one for one in known.commands if one.does in good]
     silent = {one.register for one in known.registers if not one.declared}
-    for register in dict.fromkeys(
-        write.register for one in commands for write in one.writes if write.register in silent
-    ):
+    for register in sorted(silent & {write.register for one in commands for write in one.writes}):
         _silent(register, drive.register_at(register, "w"), report)
     for _, row in drive.registers():
         _row(row, report)
@@ -49,12 +47,8 @@ def _silent(register: int, row: Register | None, report: Report) -> None:
 
 def _row(row: Register, report: Report) -> None:
     """Note what no field can do."""
-    every: list[Register | Bit | Value] = [
-        row,
-        *row.bits,
-        *row.values,
-        *(value for bit in row.bits for value in bit.values),
-    ]
+    values = (*row.values, *(value for bit in row.bits for value in bit.values))
+    every: tuple[Register | Bit | Value, ...] = (row, *row.bits, *values)
     for one in every:
         if "nothing" in one.does and len(one.does) > 1:
             report.add(one.place("does"), "`nothing` beside something else", "keep one of them")
@@ -74,7 +68,7 @@ def _command(known: Words, command: Command, report: Report) -> None:
     if command.does in MOTIONS:
         for _, write, cause in moving[:-1]:
             wrong = f"{_wrong(command, write, cause)} before its last write"
-            report.add(write.at, wrong, "write the direction first and the run bit last")
+            report.add(write.at, wrong, _ORDER)
         _motion(known, command, moving, report)
         return
     for _, write, cause in moving:
@@ -135,16 +129,15 @@ def _way(known: Words, command: Command, number: int, report: Report) -> None:
     for word, one in every:
         if wrong in one.effect.acts:
             told = word.register in held
-            where = _wrong(command, write, one, wrong) if told else _open(command, word, one, wrong)
-            report.add(write.at, where, _CORRECT if told else "write the direction first and the run bit last")
+            where = f"`{command.does}` does not write {address_text(word.register)}, where {one} {DOES[wrong]}"
+            if told:
+                report.add(write.at, _wrong(command, write, one, wrong), _CORRECT)
+            else:
+                report.add(write.at, where, _ORDER)
             return
     ways = {act for word in known.registers for one in word.causes(UNKNOWN) for act in one.effect.acts}
     if right in ways | {"reverses"} and right not in sure:
         report.miss(write.at, _lacks(command, write, right), _CORRECT)
-
-
-def _open(command: Command, word: CommandWord, one: Cause, act: Act) -> str:
-    return f"`{command.does}` does not write {address_text(word.register)}, where {one} {DOES[act]}"
 
 
 def _stop(known: Words, command: Command, report: Report) -> None:
