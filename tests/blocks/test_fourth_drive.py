@@ -170,15 +170,20 @@ def edited(engine: Engine, *edits: tuple[str, str]) -> tuple[Drive, Blocks]:
 
 
 RESET_BIT = (
-    ("{bit: 8-F, unused: true}", '{bit: 8, name: Clear trip, zh: "1: 复位"}\n          - {bit: 9-F, unused: true}'),
+    (
+        "{bit: 8-F, unused: true}",
+        '{bit: 8, name: Clear trip, zh: "1: 复位", does: [resets]}\n          - {bit: 9-F, unused: true}',
+    ),
     ("{does: fault_reset, register: 8002H, value: 16,", "{does: fault_reset, register: 8000H, set: [8],"),
 )
 TWO_REGISTERS = (
     (
-        "{address: 8002H, name: Reset, zh: 故障复位, access: w, range: {min: 16, max: 16}}",
-        "{address: 8002H, name: More control bits, zh: 控制字2, bits: [{bit: 0, name: Outer fault, zh: 外部故障},"
-        ' {bit: 1, name: Fast stop, zh: "1: 快速停车"}, {bit: 2, name: Clear trip, zh: "1: 复位"},'
-        " {bit: 3, name: Fan, zh: 风扇}, {bit: 4-F, unused: true}]}",
+        "{address: 8002H, name: Reset, zh: 故障复位, access: w, does: [resets], range: {min: 16, max: 16}}",
+        "{address: 8002H, name: More control bits, zh: 控制字2, bits: ["
+        "{bit: 0, name: Outer fault, zh: 外部故障, does: [nothing]},"
+        ' {bit: 1, name: Fast stop, zh: "1: 快速停车", does: [quick_stops]},'
+        ' {bit: 2, name: Clear trip, zh: "1: 复位", does: [resets]},'
+        " {bit: 3, name: Fan, zh: 风扇, does: [nothing]}, {bit: 4-F, unused: true}]}",
     ),
     ("{does: quick_stop, register: 8000H, set: [6], clear: [4, 5],", "{does: quick_stop, register: 8002H, set: [1],"),
     ("{does: fault_reset, register: 8002H, value: 16,", "{does: fault_reset, register: 8002H, set: [2], clear: [1],"),

@@ -134,6 +134,8 @@ def test_a_decimal_address_that_is_one_in_hexadecimal_too_is_named() -> None:
     ("word", "text"),
     [
         ("0000H", "stop: clear bit 0, 1, 2 (the ramp bits are kept)"),
+        ("0000H", "motor bit 0 `Run forward` at 0 stops the motor bit 0 `Run forward` at 1 starts the motor"),
+        ("0000H", "bit 3 `Output blocked` at 1 lets the motor coast, whatever else is set"),
         ("0000H", "3 Output blocked 1: 封锁输出 the motor runs out"),
         ("0000H", "8-9 Ramp 加减速选择 =0 Ramp 1 加减速1"),
         ("0012H", "2 02H Wrong length 长度错误 counted since power on"),

@@ -17,7 +17,7 @@ from tests.simulator.bench import DriveBench
 
 from driveblocks.maps.form import is_bit, wire
 from driveblocks.maps.model import Drive
-from driveblocks.maps.polls import polls
+from driveblocks.meaning.polls import polls
 from driveblocks.simulator.drive import SimulatedDrive
 from structured_text.engines.embedded.engine import EmbeddedEngine
 from structured_text.engines.engine import Source

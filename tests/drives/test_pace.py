@@ -8,7 +8,7 @@ from tests.second.line import Bench
 from tests.second.station import MADE_UP, MIXED, maps
 from tests.shipped import drives
 
-from driveblocks.render.drive import drive_block
+from driveblocks.render.drive import family_number
 from driveblocks.render.environment import ABI
 
 KINDS = (*MIXED, *MADE_UP)
@@ -95,7 +95,7 @@ def test_a_line_that_gets_slower_ends_no_run_and_bars_no_later_start() -> None:
 @pytest.mark.parametrize("kind", KINDS)
 def test_every_request_says_whose_it_is_and_a_stop_is_whole(kind: str) -> None:
     bench = Bench(kind)
-    own = drive_block(maps()[kind]).own.family_number
+    own = family_number(maps()[kind].prefix)
     checks = set()
     for run in (True, False):
         _ = bench.running() if run else bench.put(RunForward=False).stopped()
@@ -107,7 +107,7 @@ def test_every_request_says_whose_it_is_and_a_stop_is_whole(kind: str) -> None:
 
 
 def test_no_two_families_have_one_number() -> None:
-    numbers = [drive_block(drive).own.family_number for drive in (*drives().values(), *maps().values())]
+    numbers = [family_number(drive.prefix) for drive in (*drives().values(), *maps().values())]
     assert 0 not in numbers
     assert len(set(numbers)) == len({drive.prefix for drive in (*drives().values(), *maps().values())})
 

@@ -9,7 +9,7 @@ from tests import shipped
 from tests.line.cline import CLine
 
 from driveblocks.maps.model import Drive
-from driveblocks.maps.polls import polls
+from driveblocks.meaning.polls import polls
 
 DRIVES, RATES, BITS = (1, 3, 7, 16, 32), (9600, 19200, 38400, 57600, 115200), (10, 11)
 SCANS, DELAYS = (5, 10, 20), ((0, 0), (0, 1), (0, 2), (0, 3), (1, 0), (2, 0), (3, 0))

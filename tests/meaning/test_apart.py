@@ -11,9 +11,11 @@ from driveblocks.meaning.measure import measures, own_maximum
 from driveblocks.meaning.reference import reference
 from driveblocks.meaning.roles import roles
 from driveblocks.meaning.serial import serial
+from driveblocks.meaning.setting import settings
 from driveblocks.meaning.status import status
+from driveblocks.meaning.watchdog import watchdog
 
-MEANINGS = (serial, status, roles, measures, own_maximum, reference)
+MEANINGS = (serial, status, roles, measures, own_maximum, reference, watchdog, settings)
 
 
 def held(value: Any, path: str) -> Iterator[tuple[str, Any]]:

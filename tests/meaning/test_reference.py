@@ -42,7 +42,7 @@ def given(factor: str | None, **said: Any) -> Reference:
         (None, {"means": "speed"}, (1, False, False, False)),
     ],
 )
-def test_counts(factor: str | None, said: dict[str, Any], found: tuple[int, bool, bool, bool]) -> None:
+def test_counts(factor: str | None, said: dict[str, Any], found: tuple[object, ...]) -> None:
     """How many a hertz has, or 100 %; whether that is known; whether it is of 100 %, or in r/min."""
     one = given(factor, **said)
     assert (one.ratio, one.scaled, one.percent, one.in_rpm) == found

@@ -239,3 +239,12 @@ def test_a_word_is_said_by_what_its_fields_do(value: int, says: str) -> None:
     control = words(drive(V20)).at(CONTROL)
     assert control is not None
     assert control.says(value) == says
+
+
+def test_a_field_that_is_kept_holds_nothing_for_certain() -> None:
+    stop = replace(bit((12, 13), "stops", name="Way to stop"), holds=True)
+    control = words(drive((*POWERFLEX, stop))).at(CONTROL)
+    assert control is not None
+    assert control.moves(Held(0x3FFF, 0x0002)) is not None
+    assert control.moves(Held(0xCFFF, 0x0002)) is not None
+    assert control.moves(Held(0xFFFF, 0x1002)) is None

@@ -16,6 +16,7 @@ from tests.shapes import texts, values
 
 from driveblocks.cli import app
 from driveblocks.maps import catalog, collection
+from driveblocks.maps.form import Span
 from driveblocks.maps.page import skeleton
 from driveblocks.prove import archive, prover, report, rules
 from driveblocks.prove.facts import facts
@@ -218,3 +219,23 @@ def test_the_page_names_every_rule_of_the_design() -> None:
     page = (PAGE.parent / "measured" / "prove.md").read_text("utf-8")
     named = [*range(9), *(f"A{number}" for number in range(1, 24)), *(f"B{number}" for number in range(1, 17))]
     assert not [each for each in named if f"| {each} |" not in page]
+
+
+@pytest.mark.thorough
+def test_a_reset_with_the_run_bit_breaks_its_rule() -> None:
+    """000AH at a PowerFlex 4, which `check` refuses, too."""
+    (source,) = collection.read(catalog.chosen(["rockwell_powerflex_4"]))
+    commands_ = source.drive.operation.commands
+    bits = {"set": (Span(1, 1), Span(3, 3)), "clear": (Span(0, 0), Span(2, 2), Span(4, 5))}
+    reset = tuple(replace(one, **bits) if one.does == "fault_reset" else one for one in commands_)  # type: ignore[arg-type]  # spans
+    drive = replace(source.drive, operation=replace(source.drive.operation, commands=reset))
+    made = dict(prover.texts([replace(source, drive=drive)]))[source.path.stem]
+    begins = "nothing in the word of a stop, nor of a fault reset"
+    every = [
+        replace(each, rules=tuple(rule for rule in each.rules if rule.say.startswith(begins)))
+        for each in rules.family(facts(drive))
+    ]
+    broken = [proof for proved in prover.proved(made, {source.path.stem: every}) for proof in proved.proofs]
+    assert {
+        each.answer.question.words for each in broken if not each.good and each.answer.question.words.startswith(begins)
+    }

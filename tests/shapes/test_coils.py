@@ -12,8 +12,8 @@ from driveblocks.maps.collection import Source
 from driveblocks.maps.form import SPACES, address_text, span_text
 from driveblocks.maps.load import loads
 from driveblocks.maps.model import Drive
-from driveblocks.maps.polls import polls
 from driveblocks.maps.problem import MapError
+from driveblocks.meaning.polls import polls
 from driveblocks.output.units import units
 from driveblocks.render.text import languages
 from driveblocks.simulator.answer import answer

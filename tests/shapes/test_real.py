@@ -57,7 +57,7 @@ def test_what_the_makers_table_does_not_say_is_in_use_and_wants_a_check() -> Non
     }  # fmt: skip
     in_use = {name for facts in trust.rungs(altivar).values() for name, one in facts.items() if one}
     assert in_use >= {"run_forward", "run_reverse", "stop", "quick_stop", "running", "state switched_on"}
-    assert drive_block(altivar).own.second_hand
+    assert drive_block(altivar).own["second_hand"]
 
 
 @pytest.mark.parametrize("name", ADDRESSES)

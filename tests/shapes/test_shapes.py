@@ -17,13 +17,15 @@ from driveblocks.maps import check
 from driveblocks.maps.collection import Source
 from driveblocks.maps.form import Span
 from driveblocks.maps.model import Command, Condition, Does, Drive, Step
-from driveblocks.maps.plan import plan, reply_delay
-from driveblocks.maps.polls import polls
+from driveblocks.maps.plan import plan
 from driveblocks.maps.problem import Report
+from driveblocks.meaning.pattern import Pattern
+from driveblocks.meaning.polls import polls
+from driveblocks.meaning.serial import serial
 from driveblocks.output import units as tested
 from driveblocks.reference.permission import Judge, Write
 from driveblocks.render.context import kept
-from driveblocks.render.drive import Masked, drive_block
+from driveblocks.render.drive import drive_block
 from driveblocks.render.library import drive as library_of
 from driveblocks.render.library import generic
 from driveblocks.render.text import languages
@@ -129,10 +131,25 @@ def test_a_stop_that_forgets_an_active_low_bit_is_refused() -> None:
     assert "`stop` writes 0000H to 1000H, where bit 0 `Run, active low` at 0 starts the motor" in wrong
 
 
+def test_a_step_may_wait_for_a_state_and_a_time_and_states_may_wait_for_nobody() -> None:
+    drive = shapes()["profidrive"]
+    forward, (state,) = command(drive, "run_forward"), drive.operation.states
+    step = replace(forward.first[0], for_ms=100)
+    whole = (
+        state,
+        *(replace(state, name=f"other_{at}", equals=at) for at in (0x00, 0x04, 0x05, 0x40, 0x41, 0x44, 0x45)),
+    )
+    commands = (replace(forward, first=(step,)), *drive.operation.commands[1:])
+    made = replace(drive, operation=replace(drive.operation, commands=commands, states=whole))
+    assert judged(made) == []
+    first, _ = drive_block(made).ordering.orders[5]
+    assert (first.hold, first.wait and first.wait.name) == (100, "ready_to_switch_on")
+
+
 def test_a_fault_is_shown_by_any_code_but_0(tmp_path: Path) -> None:
     said = drive_block(shapes()["packed"]).showing.says["fault"]
     assert said == ["((Reads.PresentFaultWord AND WORD#16#FF00) <> WORD#16#0000)"]
-    assert "fault 2002H bit 8-F <> 0 (table 2)" in " ".join(run("packed", tmp_path, "show", "MAP").split())
+    assert "fault 2002H bits 8-F <> 0 (table 2)" in " ".join(run("packed", tmp_path, "show", "MAP").split())
     plain = replace(shapes()["packed"].operation, status=(replace(FAULT, any=(replace(FAULT.any[0], bit=None),)),))
     said = drive_block(replace(shapes()["packed"], operation=plain)).showing.says["fault"]
     assert said == ["(Reads.PresentFaultWord <> WORD#16#0000)"]
@@ -240,8 +257,10 @@ def test_no_request_crosses_a_group(tmp_path: Path) -> None:
 
 
 def test_a_setting_lets_the_drive_answer_later(tmp_path: Path) -> None:
-    assert reply_delay(shapes()["pulse"]) == (30, 500)
-    assert reply_delay(shapes()["packed"]) == (None, None)
+    delay = serial(shapes()["pulse"]).delay
+    assert delay
+    assert (delay.factory_ms, delay.most_ms) == (30, 500)
+    assert serial(shapes()["packed"]).delay is None
     assert "by P3.06, 30 ms as delivered, 500 ms at most" in run("pulse", tmp_path, "show", "MAP", "serial")
     assert "begin after 30 ms" in run("pulse", tmp_path, "line", "MAP")
     assert "begin after 7 ms" in run("pulse", tmp_path, "line", "MAP", "--reply", "7ms")
@@ -316,19 +335,19 @@ def test_the_templates_get_what_the_drive_says_of_itself_or_nothing() -> None:
     assert maximum.scale
     (plate,) = identity.reads
     assert (plate.function, plate.address, plate.words) == (3, 0x2003, 1)
-    assert plate.tests == [Masked(0, 0xFFFF, 0x0312)]
+    assert plate.tests == (Pattern(0x2003, 0xFFFF, 0x0312),)
     assert identity.plate
-    assert (bus.holds, block.reading.roles.by_bus) == (["DriveStatusBits.Remote"], (1,))
+    assert (bus, block.reading.roles.by_bus) == (["DriveStatusBits.Remote"], (1,))
     assert (maximum.word.address, maximum.scale) == (0x2004, Decimal("0.1"))
     assert block.reading.roles.verify == (1,)
-    assert {name: drive_block(drive).own.feeds for name, drive in shapes().items()} == {
+    assert {name: drive_block(drive).own["feeds"] for name, drive in shapes().items()} == {
         "cia402": "any", "profidrive": "reference", "pulse": "read", "two_registers": "run", "active_low": None,
         "packed": None,
     }  # fmt: skip
     bare = drive_block(shapes()["profidrive"])
     assert bare.reading.identity is None
     bare = drive_block(shapes()["active_low"])
-    assert (bare.showing.commanded_by, bare.showing.own_maximum) == (None, None)
+    assert (bare.showing.commanded_by, bare.showing.own_maximum) == ([], None)
     apart = bare.reading.identity  # from CHF, whose jog stop is its run, and from JSCC
     assert apart
     assert not apart.plate
@@ -346,7 +365,7 @@ def test_an_identity_of_several_bits_is_one_read() -> None:
     assert identity
     (plate,) = identity.reads
     assert (plate.address, plate.words) == (0x2003, 2)
-    assert plate.tests == [Masked(1, 0x00F0, 0x0090), Masked(0, 0xFF00, 0x0300)]
+    assert plate.tests == (Pattern(0x2004, 0x00F0, 0x0090), Pattern(0x2003, 0xFF00, 0x0300))
 
 
 def test_explain_knows_a_write_on_the_way_and_a_mask(tmp_path: Path) -> None:

@@ -15,10 +15,10 @@ from driveblocks.cli import app
 from driveblocks.desk.bus import Bus
 from driveblocks.desk.simulate.stand import view
 from driveblocks.desk.site.register import rows, value
-from driveblocks.maps import conduct
 from driveblocks.maps.collection import Source
 from driveblocks.maps.load import loads
 from driveblocks.maps.model import USES, Drive
+from driveblocks.meaning import conduct
 from driveblocks.output.units import units
 from driveblocks.platforms.port import by_words
 from driveblocks.reference.command import Commands, Pins
@@ -358,7 +358,7 @@ def test_a_register_chooses_the_decimals_of_a_measure(engine: Engine, tmp_path: 
     file.write_text(text, encoding="utf-8")
     frame = ["01 03 02 04 D2 3A D9", "--request", "01 03 20 03 00 01 7F CA"]
     told = " ".join(CliRunner().invoke(app, ["explain", *frame, "--drive", str(file)]).stdout.split())
-    assert "1234 = 12.34 A; only while 2004H bit 8-F = 2; 123.4 A while 2004H bit 8-F = 1" in told
+    assert "1234 = 12.34 A; only while 2004H bits 8-F = 2; 123.4 A while 2004H bits 8-F = 1" in told
     row = next(each for each in rows(drives()["decimals"]) if each.address == 0x2003)
     assert value(row, 1234, {0x2004: 0x0100}) == ("123.4", "A")
     assert value(row, 1234, {0x2004: 0x0300}) == ("1234", "A ?")

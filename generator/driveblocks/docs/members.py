@@ -5,13 +5,14 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from driveblocks.docs.pins import SCALES, unit_of
-from driveblocks.maps.conduct import reply_delay
 from driveblocks.maps.form import address_text
 from driveblocks.maps.model import Drive
+from driveblocks.meaning.conduct import reply_delay
 from driveblocks.meaning.measure import PINS
 from driveblocks.meaning.reference import reference
 from driveblocks.meaning.status import status
-from driveblocks.render.drive import drive_block, pin_of
+from driveblocks.meaning.words import words
+from driveblocks.render.drive import drive_block
 from structured_text.language.tree import StructSpec, TypeDecl, VarDecl
 
 MAP_HAS = "no use: the map has the scale"
@@ -94,7 +95,7 @@ def _settings(drive: Drive) -> Iterator[tuple[str, str]]:
         elif measure.scale:
             yield setting, MAP_HAS
         else:
-            yield setting, f"of {measure.word.address_text}: without it `{measure.pin}` is the raw count"
+            yield setting, f"of {measure.word.address_text}: without it `{measure.at.pin}` is the raw count"
     keeps = [f"16#{mask:04X} of {address_text(register)}" for register, mask in block.ordering.keeps.items()]
     yield "KeepWord", ", ".join(keeps) or "no use: no bit is left over"
     if (delay := reply_delay(drive)) is not None:
@@ -108,7 +109,7 @@ def _diagnosis(drive: Drive) -> Iterator[tuple[str, str]]:
         says = "" if shows in found else "always 0: the drive does not show it"
         valid = f"FALSE without `{setting}`" if shows in found and not found[shows].scale else ""
         yield f"{name}{unit}", f"from {found[shows].word.address_text}" if shows in found else says
-        yield pin_of(shows).valid, valid or ("always FALSE" if says else "")
+        yield PINS[shows].valid, valid or ("always FALSE" if says else "")
     for name, shows in _AT_FAULT.items():
         if shows not in found:
             yield name, "always 0: the drive does not show it"
@@ -116,6 +117,5 @@ def _diagnosis(drive: Drive) -> Iterator[tuple[str, str]]:
     yield "WarningCode", coded
     if not status(drive).shows("limit"):
         yield "LimitActive", "always FALSE: the drive does not show it"
-    commands = {one.does for one in drive.operation.commands}
     for name, does in _ABILITIES.items():
-        yield name, "TRUE" if does in commands else "FALSE"
+        yield name, "TRUE" if does in words(drive).named else "FALSE"

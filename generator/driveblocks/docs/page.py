@@ -9,21 +9,26 @@ from typing import Any
 from driveblocks.docs import bus, chain, ladder, network, states, sto, timing
 from driveblocks.docs.members import members
 from driveblocks.docs.pins import Pin, pins
-from driveblocks.maps import conduct, inventory, plan, rivals, trust
+from driveblocks.maps import inventory, rivals, trust
 from driveblocks.maps.form import address_text
-from driveblocks.maps.model import Absence, Drive, Erratum, Notice, Setting
-from driveblocks.maps.polls import Poll, polls, schedule, wire_ms
-from driveblocks.meaning.measure import PINS
+from driveblocks.maps.model import Absence, Drive, Erratum, Notice
+from driveblocks.meaning import conduct
+from driveblocks.meaning.measure import PINS, measures, own_maximum
+from driveblocks.meaning.polls import Poll, polls, schedule, wire_ms
+from driveblocks.meaning.quantity import quantity
 from driveblocks.meaning.reference import reference
 from driveblocks.meaning.serial import serial
+from driveblocks.meaning.setting import Setting, settings
 from driveblocks.meaning.status import status
+from driveblocks.meaning.watchdog import feeds, watchdog
+from driveblocks.meaning.words import words
 from driveblocks.platforms import CANONICAL, EXPORTS, PLATFORMS, cost
 from driveblocks.platforms.ladder import diagram
 from driveblocks.platforms.part import Part
 from driveblocks.platforms.port import adapter, first_motor
 from driveblocks.platforms.record import Platform
 from driveblocks.render import context
-from driveblocks.render.drive import drive_block, pin_of
+from driveblocks.render.drive import drive_block
 from driveblocks.render.environment import render
 from driveblocks.render.library import File
 from driveblocks.render.motor import SCAN_MS, motor
@@ -171,13 +176,13 @@ def families(files: list[File], drives: list[Drive], checked: Checked, platforms
 
 def _turns_on(drive: Drive) -> str:
     """How long a motor turns on without the line, by the drive's own watchdog."""
-    time = drive.watchdog.time if drive.watchdog else None
+    own = watchdog(drive)
+    time = own.time if own else None
     if time is None or time.setting is None:
-        return "not known" if drive.watchdog is None else "its watchdog, of unknown time"
-    row = next((one for one in drive.settings if one.id == time.setting), None)
-    if row is None or row.range is None:
+        return "its watchdog, of unknown time" if own else "not known"
+    if time.least_ms is None or time.most_ms is None:
         return f"as `{time.setting}` says"
-    least, most = (number * time.milliseconds / 1000 for number in (row.range.min, row.range.max))
+    least, most = (each / 1000 for each in (time.least_ms, time.most_ms))
     return f"{least.normalize():f} to {most.normalize():f} s, `{time.setting}`"
 
 
@@ -198,13 +203,13 @@ def _wires(drive: Drive) -> dict[str, str]:
 
 def _swapped(drive: Drive) -> dict[str, str]:
     """What a block of this family wants otherwise than that of another."""
-    first, line, speed = motor(drive), serial(drive), reference(drive)
+    line, speed = serial(drive), reference(drive)
     return {
         "prefix": drive.prefix,
         "full": f"required: what {speed.maximum} says" if speed.percent else "no use",
         "scale": "no use" if speed.scaled else "required",
         "pairs": "required" if speed.in_rpm else "no use",
-        "reset": "yes" if first.has_reset else "no",
+        "reset": "yes" if can(drive, "fault_reset") else "no",
         "cannot": ", ".join(words for does, words in ABILITIES.items() if not can(drive, does)) or "nothing",
         "units": f"{line.lowest} to {line.highest}",
     }
@@ -274,10 +279,9 @@ def _page(drive: Drive, checked: Checked, values: Mapping[str, Any], own: Own, p
         errata=list(_errata(drive)),
         cannot=[words for does, words in ABILITIES.items() if not can(drive, does)],
         hides=[pin.name for pin in values["outputs"] if pin.idle],
-        settings=drive.settings,
-        run_sources=[each for each in drive.settings if each.needed and each.needed.by_terminals is not None],
-        stay=[each for each in drive.settings if _stays(each)],
-        named={each.id: {value.value: value.name for value in each.values} for each in drive.settings},
+        settings=settings(drive),
+        run_sources=[each for each in settings(drive) if each.needed and each.needed.by_terminals is not None],
+        stay=[each for each in settings(drive) if _stays(each)],
         hazards=[each for each in drive.notices if _matters(each)],
         nevers=list(conduct.nevers(drive)),
         open=open_,
@@ -295,12 +299,12 @@ def _page(drive: Drive, checked: Checked, values: Mapping[str, Any], own: Own, p
         derived=_guessed(drive),
         status=status(drive),
         conduct=_conduct(drive),
-        feeds=drive.watchdog.feeds if drive.watchdog else None,
+        feeds=feeds(drive),
         proved_tripped=timing.proves_while_tripped(drive),
         states=STATES,
         turn_round=_turn_round(drive),
-        delayed=plan.reply_delay(drive)[0] == _turn_round(drive) and drive.serial.reply_delay,
-        **vars(motor(drive)),
+        delayed=serial(drive).delay_ms == _turn_round(drive) and serial(drive).delay,
+        **motor(drive),
         **values,
     )
 
@@ -309,7 +313,7 @@ def _page(drive: Drive, checked: Checked, values: Mapping[str, Any], own: Own, p
 
 
 def can(drive: Drive, does: str) -> bool:
-    return any(one.does == does for one in drive.operation.commands)
+    return does in words(drive).named
 
 
 def _reported(drive: Drive) -> list[str]:
@@ -318,12 +322,12 @@ def _reported(drive: Drive) -> list[str]:
     told = [f"that it is {words}" for one, words in WORDS.items() if shows.shows(one)]
     told += ["what it is"] if shows.identity.patterns else []
     told += ["whether the bus is in command"] if shows.by_bus.patterns else []
-    return told + (["its own maximum frequency"] if drive.operation.own_maximum is not None else [])
+    return told + (["its own maximum frequency"] if own_maximum(drive) else [])
 
 
 def _shown(drive: Drive, cell: str) -> list[str]:
     """The pins that show a value, as it is or once its scale is found out."""
-    return [f"`{pin_of(shows).pin}`" for shows in PINS if _shows(drive, shows) == cell]
+    return [f"`{PINS[shows].pin}`" for shows in PINS if _shows(drive, shows) == cell]
 
 
 def _conduct(drive: Drive) -> list[tuple[str, str]]:
@@ -365,11 +369,10 @@ def _matters(notice: Notice) -> bool:
 
 def _open(drive: Drive, one: Absence) -> bool:
     """Whether a gap of the manual is about the line, commands, reference, a scale that a pin needs, or conduct."""
-    rows = {each.register: drive.register_at(each.register) for each in drive.operation.measures}
-    words = {each.register for each in drive.operation.commands} | {drive.operation.reference.register}
-    words |= {address for address, row in rows.items() if row and not row.scale}
-    about = {"serial", "operation", *CONDUCT, *(f"register {address_text(word)}" for word in words)}
-    about |= {f"setting {each.id}" for each in drive.settings}
+    told = {each.register for each in words(drive).registers} | {reference(drive).register}
+    told |= {each.register for each in measures(drive) if not quantity(drive, each.register).factors}
+    about = {"serial", "operation", *CONDUCT, *(f"register {address_text(word)}" for word in told)}
+    about |= {f"setting {each.id}" for each in settings(drive)}
     return not about.isdisjoint(one.about)
 
 
@@ -384,9 +387,9 @@ def _errata(drive: Drive) -> Iterator[dict[str, str]]:
 
 def _bears(drive: Drive, one: Erratum) -> bool:
     """Whether a misprint is about a word that the block reads or writes, or about a keypad setting."""
-    words = {each.register for each in drive.operation.commands} | {drive.operation.reference.register}
-    words |= {each.register for each in drive.operation.measures}
-    about = {f"register {address_text(word)}" for word in words} | {f"setting {each.id}" for each in drive.settings}
+    told = {each.register for each in words(drive).registers} | {each.register for each in measures(drive)}
+    told.add(reference(drive).register)
+    about = {f"register {address_text(word)}" for word in told} | {f"setting {each.id}" for each in settings(drive)}
     return not about.isdisjoint(one.about)
 
 
@@ -423,7 +426,7 @@ def _reads(drive: Drive) -> Iterator[Read]:
 
 def _turn_round(drive: Drive) -> int:
     """What a drive as delivered takes to answer, ms, as far as it is known."""
-    return max(TURN_ROUND_MS, plan.reply_delay(drive)[0] or 0)
+    return max(TURN_ROUND_MS, serial(drive).delay_ms)
 
 
 def _silence(drive: Drive) -> float | None:

@@ -11,6 +11,7 @@ from operator import itemgetter
 from driveblocks.docs.canvas import Canvas
 from driveblocks.maps.model import Drive
 from driveblocks.meaning.status import status
+from driveblocks.meaning.words import words
 from driveblocks.render.reasons import STATES
 
 Speed = tuple[float, float]
@@ -61,7 +62,7 @@ def fault_and_reset(drive: Drive) -> tuple[Column, ...]:
     released = replace(STOPPED, fault=True) if proved else Column(0, ("stop",), fault=True)
     begin = (STARTING[-1], tripped, *stands, replace(released, event="release"))
     begin = (*begin[:2], replace(begin[2], shaft=(0.3, 0.0)), *begin[3:])
-    if not any(one.does == "fault_reset" for one in drive.operation.commands):
+    if "fault_reset" not in words(drive).named:
         return (*begin, replace(STOPPED, event="reset by other means"))
     asked = Column(0, ("stop", "reset"), fault=True, reset=True, event="reset")
     if proved:  # so the reset waits for that

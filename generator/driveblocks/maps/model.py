@@ -556,14 +556,14 @@ class Scale(Entry):
     proof: Word | None = fact("id of the example frame that proves it", "read_frequency_reply", optional=True)
 
     @property
-    def choices(self) -> tuple[tuple[Condition | None, Decimal], ...]:
+    def choices(self) -> "tuple[Scale | OtherScale, ...]":
         """Each factor with what it holds for."""
-        return (self.when, self.factor), *((one.when, one.factor) for one in self.otherwise)
+        return self, *self.otherwise
 
     @property
     def conditions(self) -> tuple[Condition, ...]:
         """On what the factor depends."""
-        return tuple(when for when, _ in self.choices if when is not None)
+        return tuple(one.when for one in self.choices if one.when is not None)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -873,11 +873,6 @@ class Command(Entry):
     source: English = fact("where the manual says so", "section (I), 0000H")
     document: Word | None = fact(_SAYS_SO, "fieldbus_guide", optional=True)
     note: English | None = fact("what else a person must know", "bits 2 to 7 are terminals and are kept", optional=True)
-
-    @property
-    def written_as(self) -> Does:
-        """The command whose words it writes: its own, or the run forward that a negative reference turns round."""
-        return "run_forward" if self.negative else self.does
 
     @property
     def writes(self) -> tuple["Command | Step", ...]:

@@ -1,13 +1,12 @@
 """What a drive allows on the wire, derived from its map: words per frame, readable and writable addresses."""
 
-import re
 import struct
 from collections.abc import Iterable
 from dataclasses import dataclass
-from math import ceil
 
 from driveblocks.maps.form import SPACES, Span, space_of, wire
 from driveblocks.maps.model import Drive, Limit, kept
+from driveblocks.maps.view import error_number
 from driveblocks.modbus.layout import COIL_ON, Dialect
 
 READ_WORDS, WRITE_WORDS = 125, 123
@@ -49,8 +48,8 @@ def plan(drive: Drive) -> Plan:
         sub_functions=tuple(sub.code for sub in functions[8].sub_functions) if 8 in functions else (),
         rtu=_words(drive, "rtu"),
         ascii=_words(drive, "ascii"),
-        readable=_grouped(drive, _merged(_allowed(drive, "r"))),
-        writable=_grouped(drive, _merged([*_allowed(drive, "w"), *drive.ram_only])),
+        readable=_grouped(drive, merged(_allowed(drive, "r"))),
+        writable=_grouped(drive, merged([*_allowed(drive, "w"), *drive.ram_only])),
     )
 
 
@@ -126,14 +125,15 @@ def _allowed(drive: Drive, use: str) -> list[Span]:
     return spans
 
 
-def _merged(spans: Iterable[Span]) -> tuple[Span, ...]:
-    merged: list[Span] = []
+def merged(spans: Iterable[Span]) -> tuple[Span, ...]:
+    """Ranges in order, those that touch as one."""
+    found: list[Span] = []
     for span in sorted(spans):
-        if merged and span.first <= merged[-1].last + 1:
-            merged[-1] = Span(merged[-1].first, max(merged[-1].last, span.last))
+        if found and span.first <= found[-1].last + 1:
+            found[-1] = Span(found[-1].first, max(found[-1].last, span.last))
         else:
-            merged.append(span)
-    return tuple(merged)
+            found.append(span)
+    return tuple(found)
 
 
 def group(drive: Drive, address: int) -> int:
@@ -151,18 +151,6 @@ def _grouped(drive: Drive, spans: tuple[Span, ...]) -> tuple[Span, ...]:
     )
 
 
-def reply_delay(drive: Drive) -> tuple[int | None, int | None]:
-    """How much later the drive answers by its setting, as delivered and at most, ms; None: the manual does not say."""
-    delay = drive.serial.reply_delay
-    setting = next((each for each in drive.settings if delay and each.id == delay.setting), None)
-    if delay is None or setting is None:
-        return None, None
-    said = re.match("[0-9]{1,9}", setting.default or "")
-    counts = (int(said[0]) if said else None, setting.range.max if setting.range else None)
-    factory, most = (None if each is None else ceil(each * delay.milliseconds) for each in counts)
-    return factory, most
-
-
 def dialect(drive: Drive) -> Dialect:
     """How the drive refuses and what it is forgiven; where the manual does not say, the standard holds."""
     tolerant = any(tolerance.kind == "two_byte_count" for tolerance in drive.tolerances)
@@ -170,3 +158,8 @@ def dialect(drive: Drive) -> Dialect:
     if form is None:
         return Dialect(two_byte_count=tolerant)
     return Dialect(form.add, form.function, form.address, tolerant)
+
+
+def busy(drive: Drive) -> int:
+    """The code with which the drive says that it cannot do something now; 0: it has none."""
+    return next((error_number(one) or 0 for one in drive.errors.codes if one.busy), 0)

@@ -13,7 +13,7 @@ from driveblocks.maps.load import load
 from driveblocks.maps.model import Drive, Register, Setting, kept
 from driveblocks.maps.pair import whole
 from driveblocks.maps.plan import dialect, plan, reads_by, writes_by
-from driveblocks.maps.polls import Poll, fast_words, identity_read
+from driveblocks.meaning.polls import Poll, fast_words, identity_read
 from driveblocks.meaning.words import STOPS, Held, Write, words
 from driveblocks.modbus.layout import Dialect
 

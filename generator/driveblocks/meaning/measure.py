@@ -1,27 +1,49 @@
 """What a drive measures, and the pins of a drive block that show it."""
 
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 from driveblocks.maps.model import Drive, kept
 from driveblocks.maps.names import UNIT_NAMES
 from driveblocks.meaning.citation import Citation, cited
 from driveblocks.meaning.quantity import Quantity, quantity
 
+
+class Pin(NamedTuple):
+    """A pin that shows a measure: its name, its unit, and the setting that replaces a scale, where there is one."""
+
+    name: str
+    unit: str
+    setting: str
+
+    @property
+    def pin(self) -> str:
+        """Where a drive block shows it: two have pins of their own, the rest are members of Diagnosis."""
+        return f"{'' if self.setting in PINNED else 'Diagnosis.'}{self.name}{self.unit}"
+
+    @property
+    def valid(self) -> str:
+        """The member of Diagnosis that says whether it is valid."""
+        return f"{self.name}Valid"
+
+
+PINNED = ("FrequencyScale", "CurrentScale")
+"""Settings of the measures that are outputs of the block."""
 PINS = {
-    "output_frequency": ("OutputFrequency", "Hz", "FrequencyScale"),
-    "output_current": ("OutputCurrent", "A", "CurrentScale"),
-    "output_voltage": ("OutputVoltage", "V", "VoltageScale"),
-    "dc_bus_voltage": ("DcBusVoltage", "V", "DcVoltageScale"),
-    "output_power": ("OutputPower", "KW", "PowerScale"),
-    "output_speed": ("OutputSpeed", "Rpm", ""),
-    "output_torque": ("OutputTorque", "Percent", ""),
-    "relative_power": ("RelativePower", "Percent", ""),
-    "drive_temperature": ("DriveTemperature", "DegC", ""),
-    "motor_temperature": ("MotorTemperature", "DegC", ""),
-    "operating_time": ("OperatingTime", "H", ""),
-    "energy": ("Energy", "KWh", ""),
+    "output_frequency": Pin("OutputFrequency", "Hz", "FrequencyScale"),
+    "output_current": Pin("OutputCurrent", "A", "CurrentScale"),
+    "output_voltage": Pin("OutputVoltage", "V", "VoltageScale"),
+    "dc_bus_voltage": Pin("DcBusVoltage", "V", "DcVoltageScale"),
+    "output_power": Pin("OutputPower", "KW", "PowerScale"),
+    "output_speed": Pin("OutputSpeed", "Rpm", ""),
+    "output_torque": Pin("OutputTorque", "Percent", ""),
+    "relative_power": Pin("RelativePower", "Percent", ""),
+    "drive_temperature": Pin("DriveTemperature", "DegC", ""),
+    "motor_temperature": Pin("MotorTemperature", "DegC", ""),
+    "operating_time": Pin("OperatingTime", "H", ""),
+    "energy": Pin("Energy", "KWh", ""),
 }
-"""What a register can show -> the pin, its unit, and the setting that replaces a scale, where there is one."""
+"""What a register can show -> its pin."""
 
 
 @dataclass(frozen=True)
@@ -45,7 +67,7 @@ def measures(drive: Drive) -> tuple[Measure, ...]:
 
 def _shown(drive: Drive, name: str, register: int) -> Quantity:
     found = quantity(drive, register)
-    return found if UNIT_NAMES.get(found.unit or "") == PINS[name][1] else replace(found, factors=())
+    return found if UNIT_NAMES.get(found.unit or "") == PINS[name].unit else replace(found, factors=())
 
 
 @kept

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from decimal import Decimal
 
-from driveblocks.maps.model import Drive, OtherScale, Register, Scale, Use
+from driveblocks.maps.model import Drive, Register, Use
 from driveblocks.maps.pair import places, whole
 from driveblocks.meaning.citation import Citation, cited
 from driveblocks.meaning.pattern import Pattern, of_condition
@@ -43,7 +43,7 @@ class Quantity:
 def of_row(row: Register, first: int) -> Quantity:
     """The number of a row, or of the register, or the first of a pair, that is named of several."""
     high, low = places(row, first) if row.words else (first, first)
-    scales: tuple[Scale | OtherScale, ...] = (row.scale, *row.scale.otherwise) if row.scale else ()
+    scales = row.scale.choices if row.scale else ()
     factors = (Factor(cited(one), one.factor, of_condition(one.when) if one.when else None) for one in scales)
     return Quantity(high, low, row.signed, row.unit, tuple(factors))
 

@@ -4,7 +4,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 from driveblocks.maps.model import Drive, kept
-from driveblocks.maps.polls import fault_words, meaning_words, polls, speed_words, young_words
+from driveblocks.meaning.polls import fault_words, meaning_words, polls, speed_words, young_words
 from driveblocks.meaning.status import registers, status
 
 Numbers = tuple[int, ...]

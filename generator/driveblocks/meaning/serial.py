@@ -3,9 +3,11 @@
 from collections.abc import Iterable
 from dataclasses import dataclass
 from decimal import Decimal
+from math import ceil
 
-from driveblocks.maps.model import Drive, FormatCode, kept
+from driveblocks.maps.model import Drive, FormatCode, ReplyDelay, kept
 from driveblocks.meaning.citation import Citation, cited
+from driveblocks.meaning.setting import setting
 from driveblocks.modbus.frame import Mode
 
 FORMS = ("8N1", "8E1", "8O1", "8N2", "7E1", "7O1", "7N2")
@@ -54,6 +56,17 @@ class Broadcast:
 
 
 @dataclass(frozen=True)
+class Delay:
+    """A keypad setting that lets the drive answer later: as delivered, at most, and for each count of it."""
+
+    said: Citation
+    setting: str
+    factory_ms: int | None
+    most_ms: int | None
+    count_ms: Decimal
+
+
+@dataclass(frozen=True)
 class Serial:
     """The line as a drive has it; of rates and characters the factory's first."""
 
@@ -82,6 +95,17 @@ class Serial:
     """What the drive wants around a frame, whatever the rate; 0: it says nothing of the kind."""
     silence_characters: Decimal | None
     broadcast: Broadcast | None
+    delay: Delay | None
+
+    @property
+    def delay_ms(self) -> int:
+        """How much later the drive answers as delivered, as far as it is known."""
+        return (self.delay and self.delay.factory_ms) or 0
+
+    @property
+    def silence(self) -> bool:
+        """Whether it wants some around a frame, in ms or in characters."""
+        return bool(self.silence_ms or self.silence_characters)
 
     @property
     def ascii(self) -> bool:
@@ -119,7 +143,15 @@ def serial(drive: Drive) -> Serial:
         silence_ms=silence.milliseconds or Decimal(0) if silence else Decimal(0),
         silence_characters=silence.characters if silence else None,
         broadcast=Broadcast(cited(cast), cast.address, cast.start_addresses) if cast else None,
+        delay=_delay(drive, told.reply_delay) if told.reply_delay else None,
     )
+
+
+def _delay(drive: Drive, one: ReplyDelay) -> Delay:
+    by = setting(drive, one.setting)
+    counts = (by.factory, by.bounds[1] if by.bounds else None) if by else (None, None)
+    factory, most = (None if each is None else ceil(each * one.milliseconds) for each in counts)
+    return Delay(cited(one), one.setting, factory, most, one.milliseconds)
 
 
 def delivered(drives: Iterable[Drive]) -> tuple[int, Character]:

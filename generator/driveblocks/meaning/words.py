@@ -28,8 +28,10 @@ DOES: dict[Act, str] = {
     "hands_over": "gives the drive to somebody else",
 }  # fmt: skip
 """What each act is, in words."""
-KINDS: tuple[Act, ...] = ("coasts", "quick_stops", "stops", "ends_jog")
-"""How a word stops the motor; of several at once, what comes first wins."""
+KINDS: dict[Act, Does] = {
+    "coasts": "coast_stop", "quick_stops": "quick_stop", "stops": "stop", "ends_jog": "jog_stop",
+}  # fmt: skip
+"""How a word stops the motor, and the command that does; of several at once, what comes first wins."""
 
 
 class Held(NamedTuple):
@@ -37,10 +39,6 @@ class Held(NamedTuple):
 
     known: int
     word: int
-
-    def part(self, first: int, ones: int) -> "Held":
-        """The same of a field: of its bits, shifted down."""
-        return Held(self.known >> first & ones, self.word >> first & ones)
 
 
 UNKNOWN = Held(0, 0)
@@ -80,7 +78,6 @@ class Field:
     """What it does at each value that the map lists."""
     rest: Effect = UNDECLARED
     """What it does at any other value but 0."""
-    unused: bool = False
 
     @property
     def ones(self) -> int:
@@ -94,23 +91,12 @@ class Field:
 
     def may(self, held: Held) -> list[tuple[int | None, Effect]]:
         """What it may do in a word that is known in part, each with its value; None for any that is not listed."""
-        known, word = held.part(self.first, self.ones)
+        known, word = held.known >> self.first & self.ones, held.word >> self.first & self.ones
         if known == self.ones:
-            return [(word, self.at(word << self.first))]
-        found: list[tuple[int | None, Effect]] = [each for each in self.effects if (each[0] ^ word) & known == 0]
-        listed = {value for value, _ in found} | ({0} if word & known == 0 else set())
-        return [*found, *([(None, self.rest)] if 1 << (self.ones & ~known).bit_count() > len(listed) else [])]
-
-    def called(self, value: int | None, effect: Effect) -> str:
-        """A value of it in words: ``bit 1 `Start` at 1``."""
-        span = (
-            "value"
-            if self.ones == WORD
-            else f"bit{'s' * (self.last > self.first)} {bits_text(Span(self.first, self.last))}"
-        )
-        name = f" `{self.name}`" * bool(self.name and self.ones != WORD)
-        at = "" if value is None else f" {value}" if self.ones == WORD else f" at {value}"
-        return f"{span}{name}{at}{f' `{effect.name}`' if effect.name else ''}"
+            return [(word, self.at(held.word))]
+        listed = {0: NOTHING} | dict(self.effects)
+        found: list[tuple[int | None, Effect]] = [each for each in listed.items() if (each[0] ^ word) & known == 0]
+        return [*found, *([(None, self.rest)] if 1 << (self.ones & ~known).bit_count() > len(found) else [])]
 
 
 class Cause(NamedTuple):
@@ -121,8 +107,16 @@ class Cause(NamedTuple):
     effect: Effect
 
     def __str__(self) -> str:
-        """Name it: ``bit 1 `Start` at 1``."""
-        return self.field.called(self.value, self.effect)
+        """Name it: ``bit 1 `Start` at 1``, ``value 5 `Stop```."""
+        span, name, number = (
+            Span(self.field.first, self.field.last),
+            self.field.name,
+            "" if self.value is None else self.value,
+        )
+        told = [f"bit{'s' * (len(span) > 1)} {bits_text(span)}", name and f"`{name}`", number != "" and f"at {number}"]
+        if self.field.ones == WORD:
+            told = ["value", str(number)]
+        return " ".join(each for each in (*told, self.effect.name and f"`{self.effect.name}`") if each)
 
 
 @dataclass(frozen=True)
@@ -172,9 +166,8 @@ class CommandWord:
 
 def _comes(one: Cause, now: Held, before: Held) -> bool:
     """Whether a field can act: by its edge alone it acts only where its value may not have been there before."""
-    field = one.field
-    was, is_ = before.part(field.first, field.ones), now.part(field.first, field.ones)
-    there = was.known == is_.known == field.ones and was.word == is_.word
+    bits = one.field.ones << one.field.first
+    there = now.known & before.known & bits == bits and (now.word ^ before.word) & bits == 0
     return one.effect.by != "edge" or not there
 
 
@@ -201,7 +194,7 @@ class Write:
     @property
     def held(self) -> Held:
         """What is known of the register after it."""
-        return Held(WORD & ~self.keeps, self.word)
+        return Held(~self.keeps & WORD, self.word)
 
     @property
     def pattern(self) -> Pattern:
@@ -210,7 +203,7 @@ class Write:
 
     def is_in(self, word: int) -> bool:
         """Whether a word that was sent may be this write."""
-        return word & ~self.keeps & WORD == self.word
+        return word & ~self.keeps == self.word
 
 
 @dataclass(frozen=True)
@@ -230,14 +223,6 @@ class Command:
         """The write that stays."""
         return self.writes[-1]
 
-    @property
-    def steps(self) -> "Iterator[tuple[Write, Held]]":
-        """Each write, with what is known of its register before it."""
-        held: dict[int, Held] = {}
-        for write in self.writes:
-            yield write, held.get(write.register, UNKNOWN)
-            held[write.register] = write.held
-
 
 @dataclass(frozen=True)
 class Words:
@@ -246,29 +231,33 @@ class Words:
     commands: tuple[Command, ...]
     registers: tuple[CommandWord, ...]
 
-    def of(self, does: Does) -> Command | None:
-        """A command, where the family has it."""
-        return next((one for one in self.commands if one.does == does), None)
+    @property
+    def named(self) -> dict[str, Command]:
+        """Each by what it does."""
+        return {one.does: one for one in self.commands}
 
     @property
     def stop(self) -> Command:
         """The stop by the ramp, which every family has."""
-        return next(one for one in self.commands if one.does == "stop")
+        return self.named["stop"]
 
     def at(self, register: int) -> CommandWord | None:
         """A command register."""
         return next((one for one in self.registers if one.register == register), None)
 
-    def moving(self, command: Command) -> "list[tuple[int, Write, Cause]]":
-        """The writes of a command that may move the motor, by their number from 0."""
-        steps = enumerate(command.steps)
-        words = ((at, write, self.at(write.register), before) for at, (write, before) in steps)
-        found = ((at, write, word.moves(write.held, before)) for at, write, word, before in words if word)
-        return [(at, write, cause) for at, write, cause in found if cause]
+    def of(self, write: Write) -> CommandWord:
+        """The register of a write."""
+        return next(one for one in self.registers if one.register == write.register)
 
-    def keeps(self, register: int) -> int:
-        """The bits of a command register that are as the user of the block sets them."""
-        return max((one.keeps for each in self.commands for one in each.writes if one.register == register), default=0)
+    def moving(self, command: Command) -> list[tuple[int, Write, Cause]]:
+        """The writes of a command that may move the motor, by their number from 0."""
+        before: dict[int, Held] = {}
+        found = []
+        for number, write in enumerate(command.writes):
+            cause = self.of(write).moves(write.held, before.get(write.register, UNKNOWN))
+            found += [(number, write, cause)] if cause else []
+            before[write.register] = write.held
+        return found
 
 
 @kept
@@ -330,7 +319,7 @@ def _register(drive: Drive, register: int) -> CommandWord:
         return CommandWord(register, (Field(0, 15, "", ()),), False, "", None)
     section, row = found
     fields = tuple(_fields(row, 0 if is_bit(register) else 15))
-    effects = [each for one in fields if not one.unused for each in (one.rest, *dict(one.effects).values())]
+    effects = [each for one in fields for each in (one.rest, *dict(one.effects).values())]
     declared = any(each.declared and each != replace(NOTHING, name=each.name) for each in effects)
     return CommandWord(register, fields, declared, row.source or section.source, row.document or section.document)
 
@@ -350,7 +339,7 @@ def _field(row: Row) -> Field:
     """A row of a word; a value that does not say itself what it does is as its row says of any value but 0."""
     first, last, name = row.bit.first, row.bit.last, row.name or ""
     if row.unused:
-        return Field(first, last, name, (), NOTHING, unused=True)
+        return Field(first, last, name, (), NOTHING)
     rest, zero = _effect(row.does, row, UNDECLARED), _effect(row.at_0, row, NOTHING, by="level")
     effects = {0: zero} if first == last or row.at_0 else {}
     for one in row.values:

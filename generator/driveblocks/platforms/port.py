@@ -30,7 +30,7 @@ def adapter(platform: str, languages: list[Language]) -> Iterator[File]:
 def first_motor(platform: str, drive: Drive) -> File:
     one = PLATFORMS[platform]
     own = CANONICAL if one.prefix == "MB" else platform
-    values = {"platform": own, "where": one.where, "line": f"{one.line}{USUAL}", **vars(motor(drive))}
+    values = {"platform": own, "where": one.where, "line": f"{one.line}{USUAL}", **motor(drive)}
     return File(platform, f"{drive.prefix}_Motor", render("motor/Motor.st.j2", **values))
 
 

@@ -6,29 +6,26 @@ Taken from the map itself, not from what the generator made of it.
 from collections.abc import Iterable, Iterator, Mapping
 
 from driveblocks.maps.form import is_bit
-from driveblocks.maps.model import Does, Drive
-from driveblocks.maps.plan import writes_by
-from driveblocks.maps.polls import Poll, fast_words, fault_words, polls, schedule, slow_words
+from driveblocks.maps.model import Drive
+from driveblocks.maps.plan import busy, writes_by
 from driveblocks.maps.revision import checked
 from driveblocks.maps.rivals import first_reads, refusals
 from driveblocks.maps.trust import second_hand
-from driveblocks.maps.view import error_number
 from driveblocks.meaning.measure import PINS, Measure, measures, own_maximum
 from driveblocks.meaning.pattern import Pattern
+from driveblocks.meaning.polls import Poll, fast_words, fault_words, polls, schedule, slow_words
 from driveblocks.meaning.reference import reference
 from driveblocks.meaning.roles import roles
 from driveblocks.meaning.serial import serial
 from driveblocks.meaning.status import status
-from driveblocks.meaning.words import MOTIONS, STOPS, Command, words
+from driveblocks.meaning.words import MOTIONS, STOPS, Command, CommandWord, Field, words
 from driveblocks.modbus.layout import COIL_ON
 from driveblocks.render.context import word_input
 from driveblocks.render.decoded import Decoded
-from driveblocks.render.drive import STATUS
+from driveblocks.render.drive import CONSTANTS, STATUS
 from structured_text.language.writing import word
 
-SENT = dict(
-    zip((*MOTIONS, "fault_reset"), ("GO_FORWARD", "GO_REVERSE", "JOG_AHEAD", "JOG_BACK", "RESET_FAULT"), strict=True)
-)
+SENT = {does: CONSTANTS[does] for does in (*MOTIONS, "fault_reset")}
 """What the control calls a command."""
 ALL, SIGN = 0xFFFF, 0x8000
 BELIEVED = "NOT Doubtful AND (Surplus = Was.SurplusSeen)"
@@ -42,7 +39,7 @@ NEAR = (
 
 def facts(drive: Drive) -> dict[str, str]:
     """The facts of a family by the names under which the rules have them, as ST."""
-    commands = {one.does: one for one in words(drive).commands}
+    commands = words(drive).named
     shows, speed = status(drive), reference(drive)
     found = {
         "P": drive.prefix,
@@ -54,7 +51,7 @@ def facts(drive: Drive) -> dict[str, str]:
         "sent_word": f"Slot.Ask[1].Words[{speed.quantity.low - speed.register}]",
         "holds_reference": _is_reference(drive),
         "standstill": _every(_holds(drive, each) for each in shows.standstill.patterns),
-        "proof_since": _every(f"Reads.Since{number}" for number in roles(drive).proof),
+        "proof_since": _each("Reads.Since{n}", roles(drive).proof),
         **_read(drive),
         **_shown(drive),
         **_reference(drive),
@@ -77,8 +74,7 @@ def facts(drive: Drive) -> dict[str, str]:
     found["says_by_bus"] = _every(Decoded(drive).holds(each) for each in by_bus)
     found["others_command"] = f"Control.Seen.OthersCommand <> ({found['says_by_bus']})" if by_bus else "TRUE"
     found["says_running"] = _any(Decoded(drive).holds(each) for each in running)
-    every: tuple[Does, ...] = (*MOTIONS, *STOPS, "fault_reset")
-    for does in every:
+    for does in (*MOTIONS, *STOPS, "fault_reset"):
         one = commands.get(does)
         ask = "Slot.Ask[0]" if does in STOPS else "Slot.Ask[1]"
         found[does] = _any(_frames(drive, one, ask)) if one else "FALSE"
@@ -88,6 +84,7 @@ def facts(drive: Drive) -> dict[str, str]:
     for name, (stop, copy) in copies.items():
         frame = found[f"last_{stop}"].replace("Slot.Ask[0].Address", f"{copy}Register")
         found[name] = frame.replace("Slot.Ask[0].Words[0]", f"{copy}Word") if stop in commands else "TRUE"
+    found["stop_moves"], found["reset_moves"] = _moves(drive, "Slot.Ask[0]"), _moves(drive, "Slot.Ask[1]")
     found["quick_or_stop"] = found["quick_stop"] if "quick_stop" in commands else found["stop"]
     found["coast_or_stop"] = found["coast_stop"] if "coast_stop" in commands else found["stop"]
     return found
@@ -100,6 +97,36 @@ def _frames(drive: Drive, one: Command, ask: str) -> Iterator[str]:
         sent = f"({ask}.Words[0] AND {word(ALL ^ write.keeps)})" if write.keeps else f"{ask}.Words[0]"
         by = _by(drive, write.register) if ask == "Slot.Ask[1]" else ""
         yield f"({ask}.Address = {word(write.register)}) AND ({sent} = {value}){by}"
+
+
+def _moves(drive: Drive, ask: str) -> str:
+    """That a request writes what may move the motor: some field of its word starts it, and none holds it still."""
+    return _any(
+        f"({ask}.Address = {word(one.register)}){_by(drive, one.register) if ask == 'Slot.Ask[1]' else ''} "
+        f"AND ({_any(_starts(one, ask))}) AND NOT ({_any(_does(one, ask, holds=True))})"
+        for one in words(drive).registers
+    )
+
+
+def _starts(one: CommandWord, ask: str) -> Iterator[str]:
+    yield from _does(one, ask, holds=False)
+    for field in one.fields:
+        if field.rest.moves and len(field.effects) <= field.ones:
+            listed = {0} | {value for value, _ in field.effects}
+            yield _every(f"NOT ({_is(one, field, value, ask)})" for value in sorted(listed))
+
+
+def _does(one: CommandWord, ask: str, *, holds: bool) -> Iterator[str]:
+    """The values of fields that start the motor, or that hold it still."""
+    for field in one.fields:
+        for value, effect in field.effects:
+            if effect.holds if holds else effect.moves:
+                yield _is(one, field, value, ask)
+
+
+def _is(one: CommandWord, field: Field, value: int, ask: str) -> str:
+    times, mask = (COIL_ON, ALL) if is_bit(one.register) else (1 << field.first, field.ones << field.first)
+    return f"({ask}.Words[0] AND {word(mask)}) = {word(value * times)}"
 
 
 def _by(drive: Drive, register: int) -> str:
@@ -166,43 +193,36 @@ def _read(drive: Drive) -> dict[str, str]:
         f"AND (Ask.FunctionCode = {reads[index].function})"
         for turn, index in enumerate(schedule(reads))
     ]
-    fast = roles(drive).fast
+    fast, numbers = roles(drive).fast, range(1, len(reads) + 1)
     return {
         "words_taken": _every(taken),
         "settings_read": _settings(drive),
         "turns": _every(turns),
-        "oldest": _every(f"StatusAgeMs >= Age{number}" for number in fast),
+        "oldest": _each("StatusAgeMs >= Age{n}", fast),
         "one_is_oldest": _any(f"StatusAgeMs = Age{number}" for number in fast),
-        "status_age": _every(f"Reads.StatusAgeMs >= Reads.Age{number}" for number in fast)
+        "status_age": _each("Reads.StatusAgeMs >= Reads.Age{n}", fast)
         + f" AND ({_any(f'Reads.StatusAgeMs = Reads.Age{number}' for number in fast)})",
-        "proves": _every(f"Sure{number}" for number in roles(drive).proof),
-        "sure": _every(
-            f"(Sure{number} = (Since{number} AND (Since{number}Ms > LongestMs)))" for number in range(1, len(reads) + 1)
-        ),
-        "sure_since": _every(
-            f"(NOT Since{number} OR (Since{number}Ms > LongestMs))" for number in range(1, len(reads) + 1)
-        ),
-        "believed_since": _every(
-            f"(NOT Since{number} OR Was.Since{number} AND NOT (Anew OR Forget OR Reread) OR {BELIEVED})"
-            for number in range(1, len(reads) + 1)
+        "proves": _each("Sure{n}", roles(drive).proof),
+        "sure": _each("(Sure{n} = (Since{n} AND (Since{n}Ms > LongestMs)))", numbers),
+        "sure_since": _each("(NOT Since{n} OR (Since{n}Ms > LongestMs))", numbers),
+        "believed_since": _each(
+            f"(NOT Since{{n}} OR Was.Since{{n}} AND NOT (Anew OR Forget OR Reread) OR {BELIEVED})", numbers
         ),
         "speed": _any(f"({_comes(number, reads[number - 1])}) AND {BELIEVED}" for number in roles(drive).speed),
-        "ages": _every(
-            f"(Age{number} = MB_Plus(Number := Was.Age{number}, More := PassedMs)) "
-            f"OR Fresh AND (Entry = {number}) AND (Age{number} = PassedMs)"
-            for number in range(1, len(reads) + 1)
+        "ages": _each(
+            "(Age{n} = MB_Plus(Number := Was.Age{n}, More := PassedMs)) "
+            "OR Fresh AND (Entry = {n}) AND (Age{n} = PassedMs)",
+            numbers,
         ),
-        "since": _every(
-            f"NOT Since{number} OR Was.Since{number} OR Fresh AND (Entry = {number})"
-            for number in range(1, len(reads) + 1)
-        ),
-        "none_since": _every(
-            f"NOT Since{number} OR Fresh AND (Entry = {number})" for number in range(1, len(reads) + 1)
-        ),
-        "all_old": _every(
-            f"(Age{number} = 65535) OR Fresh AND (Entry = {number})" for number in range(1, len(reads) + 1)
-        ),
+        "since": _each("NOT Since{n} OR Was.Since{n} OR Fresh AND (Entry = {n})", numbers),
+        "none_since": _each("NOT Since{n} OR Fresh AND (Entry = {n})", numbers),
+        "all_old": _each("(Age{n} = 65535) OR Fresh AND (Entry = {n})", numbers),
     }
+
+
+def _each(form: str, numbers: Iterable[int]) -> str:
+    """That something is so of each of some reads."""
+    return _every(form.format(n=number) for number in numbers)
 
 
 def _settings(drive: Drive) -> str:
@@ -221,29 +241,27 @@ def _shown(drive: Drive) -> dict[str, str]:
     """That the pins show what the map says of the words that were read, and what is handed to the line."""
     said, pins = [], []
     dialect = refusals(drive)
-    busy = next((error_number(one) or 0 for one in drive.errors.codes if one.busy), 0)
     shows = status(drive)
     for one in shows.shown:
         holds = _any(_holds(drive, each) for each in one.patterns)
         said.append(f"({_any(Decoded(drive).holds(each) for each in one.patterns)}) = ({holds})")
         if one.name in STATUS:
             pins.append(f"{STATUS[one.name]} = ({'Running AND ' * (one.name == 'at_speed')}({holds}))")
-    tolerant = any(each.kind == "two_byte_count" for each in drive.tolerances)
     told = [
-        f"Slot.TwoByteCount = {tolerant}".upper(),
+        f"Slot.TwoByteCount = {dialect.two_byte_count}".upper(),
         f"Slot.SilenceMs = {int(serial(drive).silence_ms)}",
         f"Slot.ExceptionAdd = {dialect.add}",
         f"Slot.ErrorFunction = {dialect.function or 0}",
         f"Slot.ErrorAddress = {word(dialect.address or 0)}",
-        f"Slot.BusyReason = {busy}",
+        f"Slot.BusyReason = {busy(drive)}",
     ]
     ready = [_holds(drive, each) for each in shows.shows("ready")]
     verify = [(Decoded(drive).holds(each), _holds(drive, each)) for each in shows.verify]
     return {
         "ready_shown": f"(CommOk AND ({_any(ready)}))" if ready else "TRUE",
         "verified": _every(word for _, word in verify),
-        "settings_since": _every(f"Reads.Sure{number}" for number in roles(drive).verify),
-        "settings_seen": _every(f"Reads.Since{number}" for number in roles(drive).setting) if verify else "FALSE",
+        "settings_since": _each("Reads.Sure{n}", roles(drive).verify),
+        "settings_seen": _each("Reads.Since{n}", roles(drive).setting) if verify else "FALSE",
         "settled_read": "(NOT Known.Settled.Proved OR Reads.SettingsRead)" if roles(drive).verify else "TRUE",
         "settings_said": _every(f"({decoded}) = ({word})" for decoded, word in verify),
         "said": _every(said),
@@ -286,7 +304,7 @@ def _reference(drive: Drive) -> dict[str, str]:
     }
 
 
-def _writes(commands: Mapping[Does, Command], form: str) -> Iterator[str]:
+def _writes(commands: Mapping[str, Command], form: str) -> Iterator[str]:
     """Something about each command and the number of its last write, from 0."""
     return (form.format(name=SENT[does], last=len(one.writes) - 1) for does, one in commands.items() if does in SENT)
 

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 from driveblocks.maps.model import Drive
-from driveblocks.maps.polls import Poll
+from driveblocks.meaning.polls import Poll
 from driveblocks.meaning.words import words
 from driveblocks.render import context
 from driveblocks.render.context import Word
@@ -58,4 +58,4 @@ def channels(drive: Drive) -> dict[str, object]:
     ]
     reads = [one for one in reads if one.words]
     checks = [turn for turn, one in enumerate(reads, 2) if pins & {each.word.name for each in one.words}]
-    return block.values | vars(motor(drive)) | vars(Channels(words(drive).stop.last.register, reads, checks))
+    return block.values | motor(drive) | vars(Channels(words(drive).stop.last.register, reads, checks))

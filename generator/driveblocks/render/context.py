@@ -15,7 +15,7 @@ from driveblocks.maps.model import (
     Value,
 )
 from driveblocks.maps.names import UNIT_NAMES, symbol
-from driveblocks.maps.plan import READ_WORDS, WRITE_WORDS, Plan, Words, holding
+from driveblocks.maps.plan import READ_WORDS, WRITE_WORDS, Plan, Words, dialect, holding
 from driveblocks.maps.revision import revision
 from driveblocks.meaning.pattern import WORD, Pattern, bits_of
 from driveblocks.meaning.quantity import Quantity, of_row
@@ -219,8 +219,7 @@ class Reply:
 
 def reply(drive: Drive) -> Reply:
     """What a reply looks like."""
-    tolerant = any(tolerance.kind == "two_byte_count" for tolerance in drive.tolerances)
-    return Reply(_refusal(drive), tolerant)
+    return Reply(_refusal(drive), dialect(drive).two_byte_count)
 
 
 def _refusal(drive: Drive) -> Refusal:

@@ -10,8 +10,13 @@ from operator import or_
 from driveblocks.maps import names
 from driveblocks.maps.form import address_text, is_bit
 from driveblocks.maps.model import Drive, kept
-from driveblocks.maps.plan import writes_by
-from driveblocks.maps.polls import (
+from driveblocks.maps.plan import busy, writes_by
+from driveblocks.maps.revision import checked
+from driveblocks.maps.rivals import First, first_reads, refusals
+from driveblocks.maps.trust import second_hand
+from driveblocks.meaning.measure import PINS, Measure, Pin, measures, own_maximum
+from driveblocks.meaning.pattern import Pattern, bits_of
+from driveblocks.meaning.polls import (
     Poll,
     fast_words,
     meaning_words,
@@ -20,19 +25,14 @@ from driveblocks.maps.polls import (
     schedule,
     slow_words,
 )
-from driveblocks.maps.revision import checked
-from driveblocks.maps.rivals import First, first_reads, refusals
-from driveblocks.maps.trust import second_hand
-from driveblocks.maps.view import error_number
-from driveblocks.meaning.measure import PINS, Measure, measures, own_maximum
-from driveblocks.meaning.pattern import Pattern, bits_of
 from driveblocks.meaning.reference import Reference, reference
 from driveblocks.meaning.roles import Roles, roles
-from driveblocks.meaning.serial import Serial, serial
-from driveblocks.meaning.status import Sign, status
+from driveblocks.meaning.serial import serial
+from driveblocks.meaning.status import Patterns, Sign, status
+from driveblocks.meaning.watchdog import feeds
 from driveblocks.meaning.words import Command, words
 from driveblocks.modbus.checksum import crc16
-from driveblocks.modbus.layout import COIL_ON, Dialect
+from driveblocks.modbus.layout import COIL_ON
 from driveblocks.render import context
 from driveblocks.render.constants import ORDERS, STOPS
 from driveblocks.render.context import Word, word_input
@@ -49,8 +49,6 @@ CONSTANTS = {
 """Command -> the constant of that number, as VFD_Control has it."""
 UNSIGNED = ("output_frequency", "output_speed")
 """What is shown without its sign, which is the direction."""
-PINNED = ("output_frequency", "output_current")
-"""The measures that are outputs of the block; the rest are members of Diagnosis."""
 STATUS = {
     "running": "Running", "reverse": "Reverse", "at_speed": "AtSpeed", "zero_speed": "ZeroSpeed",
     "warning": "Warning", "fault": "Fault", "limit": "Diagnosis.LimitActive",
@@ -106,15 +104,6 @@ class Read:
 
 
 @dataclass(frozen=True)
-class Masked:
-    """A word of the identity by its place in the read, the bits that count and what they must be."""
-
-    index: int
-    mask: int
-    value: int
-
-
-@dataclass(frozen=True)
 class Shown:
     """A read that shows the family: see `rivals.First`; `plate` is an identity of the map, by its tests."""
 
@@ -124,7 +113,7 @@ class Shown:
     shows: str
     values: tuple[int, ...]
     mask: int
-    tests: list[Masked]
+    tests: Patterns
 
 
 @dataclass(frozen=True)
@@ -137,14 +126,6 @@ class Identified:
     where: str
     busy: int
     """The refusal that says nothing of it; 0: none."""
-    source: str
-
-
-@dataclass(frozen=True)
-class InCommand:
-    """What all has to hold while the bus is in command."""
-
-    holds: list[str]
     source: str
 
 
@@ -171,23 +152,10 @@ class Faulty:
 
 
 @dataclass(frozen=True)
-class Pin:
-    """Where a drive block shows a measure, and the member of Diagnosis that says whether it is valid."""
-
-    pin: str
-    valid: str
-    unit: str
-    setting: str
-
-
-@dataclass(frozen=True)
 class Measured:
-    """A measure that the drive shows: its pin, as `Pin` has it, its word and scale."""
+    """A measure that the drive shows: its pin, its word and scale."""
 
-    pin: str
-    valid: str
-    unit: str
-    setting: str
+    at: Pin
     word: Word
     low: Word | None
     """The low word of a value of 32 bits, whose high one is the word."""
@@ -238,7 +206,8 @@ class Showing:
     verified: list[str]
     measures: dict[str, Measured]
     pins: dict[str, Pin]
-    commanded_by: InCommand | None
+    commanded_by: list[str]
+    """What all has to hold while the bus is in command."""
     own_maximum: Maximum | None
     decoders: list[Call]
 
@@ -272,37 +241,20 @@ class Ordering:
 
 
 @dataclass(frozen=True)
-class Own:
-    """What else the block has to know of the family."""
-
-    source: str
-    prefix: str
-    family_number: int
-    serial: Serial
-    dialect: Dialect
-    two_byte_count: bool
-    busy: int
-    silence: int
-    second_hand: bool
-    checked: int
-    feeds: str | None
-
-
-@dataclass(frozen=True)
 class Block:
     """For Drive and its parts, which are given all four as one."""
 
     reading: Reading
     showing: Showing
     ordering: Ordering
-    own: Own
+    own: dict[str, object]
 
     @property
     def values(self) -> dict[str, object]:
         """What its templates print."""
         reads = {f"{role}_reads": numbers for role, numbers in vars(self.reading.roles).items()}
         speed = vars(self.ordering.referred) | {"reference": self.ordering.referred.register}
-        return reads | speed | vars(self.reading) | vars(self.showing) | vars(self.ordering) | vars(self.own)
+        return reads | speed | vars(self.reading) | vars(self.showing) | vars(self.ordering) | self.own
 
 
 @kept
@@ -348,8 +300,8 @@ def _showing(drive: Drive, number: dict[int, int], told: Decoded) -> Showing:
         verify=[_tested(drive, each) for each in verify],
         verified=[told.holds(each) for each in verify],
         measures={one.name: _measure(drive, one, told, number) for one in measures(drive)},
-        pins={shows: pin_of(shows) for shows in PINS},
-        commanded_by=_commanded_by(drive, told),
+        pins=PINS,
+        commanded_by=[told.holds(each) for each in status(drive).by_bus.patterns],
         own_maximum=_own_maximum(drive),
         decoders=told.used,
     )
@@ -390,25 +342,13 @@ def family_number(prefix: str) -> int:
     return crc16(prefix.encode()) or 1
 
 
-def _own(drive: Drive) -> Own:
-    reply = context.reply(drive)
-    return Own(
-        source=context.source_of(drive, words(drive).stop.source),
-        prefix=drive.prefix,
-        family_number=family_number(drive.prefix),
-        serial=serial(drive),
-        dialect=refusals(drive),
-        two_byte_count=reply.two_byte_count,
-        busy=_busy(drive),
-        silence=int(serial(drive).silence_ms),
-        second_hand=second_hand(drive),
-        checked=checked(drive),
-        feeds=drive.watchdog.feeds if drive.watchdog else None,
-    )
-
-
-def _busy(drive: Drive) -> int:
-    return next((error_number(one) or 0 for one in drive.errors.codes if one.busy), 0)
+def _own(drive: Drive) -> dict[str, object]:
+    """What else the templates have to know of the family."""
+    return {
+        "source": context.source_of(drive, words(drive).stop.source), "prefix": drive.prefix, "serial": serial(drive),
+        "family_number": family_number(drive.prefix), "dialect": refusals(drive), "busy": busy(drive),
+        "second_hand": second_hand(drive), "checked": checked(drive), "feeds": feeds(drive),
+    }  # fmt: skip
 
 
 def _writes(drive: Drive, one: Command) -> Iterator[Write]:
@@ -474,31 +414,17 @@ def _identity(drive: Drive) -> Identified | None:
     firsts, own = first_reads(drive), status(drive).identity
     if not firsts:
         return None
-    tests = _plate(drive, firsts[0].read)
+    tests = own.patterns
     reads = [_shown(each, tests) for each in firsts]
     sources = [context.source_of(drive, own.said.source)] if own.patterns else [each.source for each in firsts]
     where = " and ".join(f"at {address_text(each.address)}" for each in reads)
-    return Identified(bool(tests), reads, where, _busy(drive) or BUSY * (not drive.errors.codes), "; ".join(sources))
+    return Identified(bool(tests), reads, where, busy(drive) or BUSY * (not drive.errors.codes), "; ".join(sources))
 
 
-def _shown(first: First, tests: list[Masked]) -> Shown:
+def _shown(first: First, tests: Patterns) -> Shown:
     mask = reduce(or_, first.values, 0)
     read, shows = first.read, "plate" if tests else first.shows
     return Shown(read.function, read.address, read.words, shows, first.values, mask, tests)
-
-
-def _plate(drive: Drive, read: Poll) -> list[Masked]:
-    """The tests of the map's identity, where it has one."""
-    patterns = status(drive).identity.patterns
-    return [Masked(each.register - read.address, each.mask, each.value) for each in patterns]
-
-
-def _commanded_by(drive: Drive, told: Decoded) -> InCommand | None:
-    bus = status(drive).by_bus
-    if not bus.patterns:
-        return None
-    holds = [told.holds(each) for each in bus.patterns]
-    return InCommand(holds, context.source_of(drive, bus.said.source))
 
 
 def _own_maximum(drive: Drive) -> Maximum | None:
@@ -532,27 +458,16 @@ def _warned(drive: Drive) -> Faulty | None:
     return Faulty(word, [], bits_of([bits]), 1 << bits.first) if bits else Faulty(word, [])
 
 
-def pin_of(shows: str) -> Pin:
-    """Where a drive block shows a measure: two have pins of their own, all say in Diagnosis whether they are valid."""
-    name, unit, setting = PINS[shows]
-    where = "" if shows in PINNED else "Diagnosis."
-    return Pin(f"{where}{name}{unit}", f"{name}Valid", unit, setting)
-
-
 def _measure(drive: Drive, one: Measure, told: Decoded, number: dict[int, int]) -> Measured:
     row, has = drive.register_at(one.register), one.quantity
     assert row is not None  # noqa: S101  (a checked map lists the registers that it measures)
     holds = [told.holds(each.when) for each in has.factors if each.when]
-    shown = pin_of(one.name)
     return Measured(
-        pin=shown.pin,
-        valid=shown.valid,
-        unit=shown.unit,
-        setting=shown.setting,
+        at=PINS[one.name],
         word=word_input(drive, has.high),
         low=word_input(drive, has.low) if has.pair else None,
         scale=has.factor,
-        function=names.block(drive.prefix, names.symbol(row) + shown.unit),
+        function=names.block(drive.prefix, names.symbol(row) + PINS[one.name].unit),
         when=" OR ".join(holds) if len(holds) < 2 else f"({' OR '.join(holds)})",
         known=_known(drive, one, number),
         choices=list(zip(holds, (each.value for each in has.factors), strict=True)) if has.factors[1:] else [],

@@ -6,9 +6,11 @@ from dataclasses import dataclass, replace
 
 from driveblocks.maps.form import Span, is_bit, space_of
 from driveblocks.maps.model import Drive, Storage
-from driveblocks.maps.pair import whole
-from driveblocks.maps.plan import Plan, holding
+from driveblocks.maps.plan import Plan, holding, merged
+from driveblocks.meaning.measure import own_maximum
+from driveblocks.meaning.reference import reference
 from driveblocks.meaning.serial import serial
+from driveblocks.meaning.setting import settings
 from driveblocks.meaning.words import words
 from driveblocks.render.context import source_of
 
@@ -40,9 +42,9 @@ class MayWrite:
 
     name: str
     can_write: str
-    fixed: list[Span]
+    fixed: tuple[Span, ...]
     """What is read only, or not used."""
-    refused: list[tuple[str, str, list[Span]]]
+    refused: list[tuple[str, str, tuple[Span, ...]]]
     """The name of the result, why, and the spans, from the weakest to the strongest."""
     ranges: list[Ranged]
 
@@ -72,13 +74,13 @@ def may_write(drive: Drive, allowed: Plan) -> MayWrite:
 
 def _settings(drive: Drive) -> Iterator[int | None]:
     """The registers of the settings, and of the maximum that the full scale is compared with."""
-    yield from (one.register for one in drive.settings)
-    yield drive.operation.own_maximum.register if drive.operation.own_maximum else None
+    yield from (one.register for one in settings(drive))
+    yield maximum.register if (maximum := own_maximum(drive)) else None
 
 
 def _commanded(drive: Drive) -> Iterator[int]:
     """The registers by which the drive block moves the motor."""
-    yield from whole(drive, drive.operation.reference.register)
+    yield from reference(drive).registers
     yield from (each.register for each in words(drive).registers if not is_bit(each.register))
 
 
@@ -96,15 +98,9 @@ def _with_aliases(drive: Drive, addresses: Iterable[int | None]) -> set[int]:
     return {alias for one in addresses if one is not None for alias in (one, one | bit, pairs.get(one, one))}
 
 
-def _spans(addresses: Iterable[int]) -> list[Span]:
+def _spans(addresses: Iterable[int]) -> tuple[Span, ...]:
     """Addresses as runs."""
-    runs: list[Span] = []
-    for address in sorted(addresses):
-        if runs and address == runs[-1].last + 1:
-            runs[-1] = Span(runs[-1].first, address)
-        else:
-            runs.append(Span(address, address))
-    return runs
+    return merged(Span(each, each) for each in addresses)
 
 
 def _ranges(drive: Drive, writable: set[int]) -> Iterator[Ranged]:
@@ -228,9 +224,7 @@ def _ids(drive: Drive) -> Iterator[tuple[str, int, int]]:
     for _, row in drive.registers():
         if row.id is not None and not row.unused and space_of(row.address.first) == "holding":
             yield row.id, row.address.first, len(row.address)
-    for setting in drive.settings:
-        if setting.register is not None:
-            yield setting.id, setting.register, 1
+    yield from ((one.id, one.register, 1) for one in settings(drive) if one.register is not None)
 
 
 def _letters(known: dict[_Key, int]) -> dict[int, dict[int, Group]]:

@@ -4,9 +4,10 @@ from collections.abc import Iterable, Iterator
 
 from rich.console import RenderableType
 
-from driveblocks.maps import conduct
 from driveblocks.maps.form import address_text
 from driveblocks.maps.model import BaudCode, Choice, Drive, FormatCode, Function, Limits, ModeCode, Serial, Setting
+from driveblocks.meaning import conduct
+from driveblocks.meaning.serial import PARITIES
 from driveblocks.show.errata import corroborated
 from driveblocks.show.faults import recorded
 from driveblocks.show.layout import both, card, choices, code_text, facts, heading, listed
@@ -61,8 +62,7 @@ def _format(code: FormatCode) -> str:
         return (
             f"{code.code} = parity {code.parity}, {code.data_bits or '?'} data bits, {code.stop_bits or '?'} stop bits"
         )
-    letter = {"none": "N", "even": "E", "odd": "O"}[code.parity]
-    return f"{code.code} = {code.data_bits}{letter}{code.stop_bits}"
+    return f"{code.code} = {code.data_bits}{PARITIES[code.parity]}{code.stop_bits}"
 
 
 def _choice(choice: Choice, codes: Iterable[str], always: str = "") -> str:

@@ -5,8 +5,7 @@ from pathlib import Path
 
 from rich.console import RenderableType
 
-from driveblocks.maps import catalog, conduct, counts, view
-from driveblocks.maps.conduct import condition
+from driveblocks.maps import catalog, counts, view
 from driveblocks.maps.form import address_text, bits_text
 from driveblocks.maps.model import (
     Command,
@@ -22,6 +21,8 @@ from driveblocks.maps.model import (
 )
 from driveblocks.maps.revision import revision
 from driveblocks.maps.trust import counted, heard, second_hand, words
+from driveblocks.meaning import conduct
+from driveblocks.meaning.pattern import of_condition
 from driveblocks.show.faults import reported
 from driveblocks.show.layout import both, facts, heading, listed, table
 from driveblocks.show.line import line, settings
@@ -89,7 +90,7 @@ def operation(drive: Drive) -> Iterator[RenderableType]:
     yield heading("Reference, standstill, storage")
     yield facts(
         ("reference", _reference(drive.operation.reference)),
-        ("standstill", f"{' and '.join(map(condition, still.all))}: {still.why}  ({still.source})"),
+        ("standstill", f"{' and '.join(map(str, map(of_condition, still.all)))}: {still.why}  ({still.source})"),
         ("storage", _storage(drive)),
     )
     yield from _shown(drive)
@@ -121,14 +122,14 @@ def _shown(drive: Drive) -> Iterator[RenderableType]:
     yield heading("What the pins show")
     made = table("pin", "from", wide=("from",))
     for status in operation.status:
-        made.add_row(_plain(status.shows), f"{' or '.join(map(condition, status.any))}  ({status.source})")
+        made.add_row(_plain(status.shows), f"{' or '.join(map(str, map(of_condition, status.any)))}  ({status.source})")
     for measured in operation.measures:
         made.add_row(_plain(measured.shows), f"{address_text(measured.register)}  ({measured.source})")
     made.add_row("fault code", _fault_code(drive))
     if drive.warnings is not None:
         made.add_row("warning code", f"{reported(drive.warnings)}  ({drive.warnings.source})")
     for state in operation.states:
-        made.add_row(f"state {state.name}", f"{condition(state)}  ({state.source})")
+        made.add_row(f"state {state.name}", f"{of_condition(state)}  ({state.source})")
     yield made
 
 
@@ -152,7 +153,11 @@ def _reference(reference: Reference) -> str:
     maximum = f"{count}, 100 % is {reference.maximum}" if reference.maximum else count
     maximum += f", which is {reference.full_scale_hz} Hz" if reference.full_scale_hz else ""
     reverse = ", negative turns the other way" if reference.negative_reverses else ""
-    verify = f"; trusted only after reading {listed(map(condition, reference.verify))}" if reference.verify else ""
+    verify = (
+        f"; trusted only after reading {listed(map(str, map(of_condition, reference.verify)))}"
+        if reference.verify
+        else ""
+    )
     meaning = _plain(reference.means)
     return f"{address_text(reference.register)}, {meaning}{maximum}{reverse}{verify}  ({reference.source})"
 

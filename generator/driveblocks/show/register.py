@@ -6,10 +6,11 @@ from rich.console import RenderableType
 from rich.padding import Padding
 
 from driveblocks.maps import view
-from driveblocks.maps.conduct import condition
 from driveblocks.maps.form import Span, address_text, bits_text, span_text, wire
 from driveblocks.maps.model import Area, Command, Drive, Register, Section, Step, Value
 from driveblocks.maps.numbering import named
+from driveblocks.meaning.pattern import of_condition
+from driveblocks.meaning.words import DOES, UNKNOWN, words
 from driveblocks.show.errata import corroborated
 from driveblocks.show.faults import recorded
 from driveblocks.show.layout import OWN, both, card, code_text, listed, listing
@@ -35,6 +36,7 @@ def page(drive: Drive, section: Section, row: Register, address: int) -> Iterato
         ("signed", "two's complement, -32768 to 32767" if row.signed else None),
         ("range", f"{row.range.min} to {row.range.max} (raw)" if row.range else None),
         ("commands", "\n".join(_commands(drive, row, address))),
+        ("motor", "\n".join(_motor(drive, address))),
         ("never", "\n".join(f"bits {bits_text(one.bit)} = {one.equals}: {one.why}" for one in row.never)),
         ("pins", "\n".join(_shows(drive, address)) if drive.is_read(row) else None),
         ("RAM only", _ram_only(drive, address)),
@@ -82,10 +84,11 @@ def _scale(row: Register) -> str | None:
     scale = row.scale
     if scale is None:
         return None
-    when = f"\nonly while {condition(scale.when)}" if scale.when else ""
+    when = f"\nonly while {of_condition(scale.when)}" if scale.when else ""
     when += f"\nonly while {scale.needs.setting} = {scale.needs.value}" if scale.needs else ""
     when += "".join(
-        f"\none count is {one.factor} {row.unit} while {condition(one.when)}  ({one.source})" for one in scale.otherwise
+        f"\none count is {one.factor} {row.unit} while {of_condition(one.when)}  ({one.source})"
+        for one in scale.otherwise
     )
     proof = f"\nproved by the example frame {scale.proof}" if scale.proof else ""
     return f"one count is {scale.factor} {row.unit}{when}{proof}\n({scale.source})"
@@ -102,6 +105,16 @@ def _commands(drive: Drive, row: Register, address: int) -> Iterator[str]:
         if command.register == address:
             note = f" ({command.note})" if command.note else ""
             yield f"{does}: {_written(drive, command)}{note}"
+
+
+def _motor(drive: Drive, address: int) -> Iterator[str]:
+    """What bits and values of a command register do to the motor."""
+    told = words(drive).at(address)
+    for one in told.causes(UNKNOWN) if told else ():
+        does = " and ".join(text for act, text in DOES.items() if act in one.effect.acts and one.effect.declared)
+        by = f", by its {one.effect.by}" if one.effect.by == "edge" else ""
+        if does:
+            yield f"{one} {does}{by}{', whatever else is set' if one.effect.holds else ''}"
 
 
 def value_text(drive: Drive, one: Command | Step) -> str:
@@ -123,7 +136,7 @@ def _shows(drive: Drive, address: int) -> Iterator[str]:
     """What a register shows on pins of the drive block."""
     operation = drive.operation
     for status in operation.status:
-        some = [condition(one) for one in status.any if one.register == address]
+        some = [str(of_condition(one)) for one in status.any if one.register == address]
         if some:
             yield f"{status.shows.replace('_', ' ')}: {' or '.join(some)}"
     yield from (one.shows.replace("_", " ") for one in operation.measures if one.register == address)
@@ -131,9 +144,9 @@ def _shows(drive: Drive, address: int) -> Iterator[str]:
         yield "fault code"
     if address in drive.warned:
         yield "warning code"
-    yield from (f"state {one.name}: {condition(one)}" for one in operation.states if one.register == address)
+    yield from (f"state {one.name}: {of_condition(one)}" for one in operation.states if one.register == address)
     for what, told in (("bus in command", operation.commanded_by), ("identity", drive.identity)):
-        asked = [condition(one) for one in told.all if one.register == address] if told else []
+        asked = [str(of_condition(one)) for one in told.all if one.register == address] if told else []
         if asked:
             yield f"{what}: {' and '.join(asked)}"
     if operation.own_maximum is not None and operation.own_maximum.register == address:

@@ -8,8 +8,11 @@ from decimal import Decimal
 from driveblocks.maps.form import Span
 from driveblocks.maps.model import Drive, Register
 from driveblocks.maps.numbering import named
+from driveblocks.maps.plan import merged
 from driveblocks.meaning.measure import measures
 from driveblocks.meaning.quantity import of_row
+from driveblocks.meaning.reference import reference
+from driveblocks.meaning.words import words
 from driveblocks.simulator.habits import Habits
 
 _NAMES = {
@@ -77,14 +80,9 @@ def _bits(row: Register) -> tuple[tuple[int, str], ...]:
 
 def zeros(drive: Drive, known: Iterable[int]) -> str:
     """The registers of a map that read 0 until somebody writes them, as the manual names them; empty for none."""
-    told = {command.register for command in drive.operation.commands} | {drive.operation.reference.register}
-    taken, spans = {*known, *told}, list[Span]()
-    for section, row in sorted(drive.registers(), key=lambda each: each[1].address.first):
-        if "r" not in (row.access or section.access) or row.unused:
-            continue
-        for address in (each for each in row.address if each not in taken):
-            if spans and address - spans[-1].last <= 1:
-                spans[-1] = Span(spans[-1].first, address)
-            else:
-                spans.append(Span(address, address))
-    return ", ".join(named(drive, span) for span in spans)
+    told = {one.register for one in words(drive).registers} | {reference(drive).register}
+    taken, free = {*known, *told}, list[int]()
+    for section, row in drive.registers():
+        if "r" in (row.access or section.access) and not row.unused:
+            free += (each for each in row.address if each not in taken)
+    return ", ".join(named(drive, span) for span in merged(Span(each, each) for each in free))

@@ -75,7 +75,7 @@ def face(drive: Drive, measured: frozenset[int], situation: Situation, state: st
     registers = {each.register for fact in facts for all_ in fact.any for each in all_}
     candidates = [words for chosen in product(*options) if (words := _together(chosen, registers)) is not None]
     shown = max(candidates, key=lambda words: ([fact.shown(words) == fact.wanted for fact in facts], _least(words)))
-    if state is None and drive.operation.states and not situation.fault and not situation.running:
+    if state is None and status(drive).states and not situation.fault and not situation.running:
         return _waiting(drive, shown, facts)
     return shown
 

@@ -4,13 +4,13 @@ from collections.abc import Mapping
 
 from driveblocks.maps.model import Drive
 from driveblocks.meaning.pattern import WORD
-from driveblocks.meaning.words import CommandWord, Held
+from driveblocks.meaning.words import KINDS, MOTIONS, STOPS, CommandWord, Held
 from driveblocks.simulator.copies import RPM_OF_ONE_PAIR, Copy
 from driveblocks.simulator.face import Situation
 from driveblocks.simulator.habits import Habits
 from driveblocks.simulator.memory import Memory
 from driveblocks.simulator.motor import Motor
-from driveblocks.simulator.move import BY_ACT, MOTIONS, STATE, STOPS, Move, Need
+from driveblocks.simulator.move import STATE, Move, Need
 from driveblocks.simulator.plate import plate
 from driveblocks.simulator.table import Gauge, table
 
@@ -320,18 +320,22 @@ class Machine:
     def _strange(self, word: CommandWord, before: Mapping[int, tuple[int, int]]) -> None:
         """A word that is none of the map's own: it does what its bits or its value do, and moves where it may."""
         held, was = Held(WORD, self.memory[word.register]), Held(WORD, before[word.register][0])
-        resets, moved, kind = word.gives("resets", held), word.moves(held, was), word.stops(held)
+        resets, kind = word.gives("resets", held), word.stops(held)
         if resets and (resets.effect.by != "edge" or word.gives("resets", was) is None):
             self.reset()
-        guards = {move.guard for move in self.table.moves if move.effect in MOTIONS}
-        if moved and not self.fault and not self.inhibited and (None in guards or self.state in guards):
-            self._run(reverse=self._turned(), jog="jogs" in moved.effect.acts)
-        elif kind and not moved and not self.keeps_running:
-            self._obey(BY_ACT[kind], before, [])
+        if not self._goes(word, was) and kind and not self.keeps_running:
+            self._obey(KINDS[kind], before, [])
 
-    def _turned(self) -> bool:
-        """Whether what is in the command registers turns the motor in reverse."""
-        return any(word.gives("reverses", Held(WORD, self.memory[word.register])) for word in self.table.words)
+    def _goes(self, word: CommandWord, was: Held) -> bool:
+        """Whether what is in a command register may move the motor; then it does, where the drive's state lets it."""
+        moved = word.moves(Held(WORD, self.memory[word.register]), was)
+        guards = {move.guard for move in self.table.moves if move.effect in MOTIONS}
+        led = self.motor.driven or None in guards or self.state in guards
+        if moved and led and not self.fault and not self.inhibited:
+            held = [(each, Held(WORD, self.memory[each.register])) for each in self.table.words]
+            reverse = any(each.gives("reverses", now) for each, now in held)
+            self._run(reverse=reverse, jog="jogs" in moved.effect.acts)
+        return moved is not None
 
     def _fires(self, move: Move, before: Mapping[int, tuple[int, int]]) -> bool:
         touched = {move.pattern.register}
@@ -366,12 +370,9 @@ class Machine:
             self._run(reverse=effect.endswith("reverse"), jog=effect.startswith("jog"))
 
     def _hold(self) -> None:
-        """A run word that is still set acts again, where it needs neither an edge nor a state."""
-        held = [move for move in self.table.moves if move.guard is None and not any(n.before for n in move.needs)]
-        whole = {move.pattern.register: (0, 0) for move in held}
-        fired = [move for move in held if self._fires(move, whole)]
-        if not any(move.effect in STOPS for move in fired):
-            self._move(fired)
+        """A run word that is still set acts again, where its level counts and no state is asked for."""
+        for word in self.table.words:
+            self._goes(word, Held(WORD, self.memory[word.register]))
 
     def _run(self, *, reverse: bool, jog: bool = False, own_milli: int | None = None) -> None:
         self._stopping = self._quick = False

@@ -3,19 +3,13 @@
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from driveblocks.maps.model import Act, Drive
+from driveblocks.maps.model import Drive
 from driveblocks.meaning.pattern import Pattern
-from driveblocks.meaning.words import Command, Write, words
+from driveblocks.meaning.words import KINDS, MOTIONS, Command, Write, words
 
 STATE = "state"
-EFFECTS = (
-    "coast_stop", "quick_stop", "stop", "jog_stop", "fault_reset", STATE,
-    "run_forward", "run_reverse", "jog_forward", "jog_reverse",
-)  # fmt: skip
+EFFECTS = (*KINDS.values(), "fault_reset", STATE, *MOTIONS)
 """What a move does, those that win over others in the same write first."""
-STOPS = EFFECTS[:4]
-BY_ACT: dict[Act, str] = {"coasts": "coast_stop", "quick_stops": "quick_stop", "stops": "stop", "ends_jog": "jog_stop"}
-MOTIONS = EFFECTS[6:]
 
 
 @dataclass(frozen=True)

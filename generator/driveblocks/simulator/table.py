@@ -245,8 +245,8 @@ def _choices(drive: Drive) -> Iterator[Limit]:
 def _highest(drive: Drive, habits: Habits) -> Iterator[Limit]:
     """A reference in Hz ends at the drive's own maximum, where the manual has its scale and refuses what is beyond."""
     one = reference(drive)
-    in_hertz = drive.operation.reference.means == "frequency" and not one.ranged and not one.quantity.signed
-    if in_hertz and one.scaled and refuses_beyond(drive):
+    in_hertz = one.scaled and not one.part and not one.in_rpm
+    if in_hertz and not one.ranged and not one.quantity.signed and refuses_beyond(drive):
         yield Limit(one.register, 0, int(habits.maximum_hz * one.ratio), signed=False)
 
 

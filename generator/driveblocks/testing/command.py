@@ -5,6 +5,7 @@ from dataclasses import fields, replace
 from itertools import product
 
 from driveblocks.maps.model import Drive
+from driveblocks.meaning.words import words
 from driveblocks.reference.command import MOTIONS, Commands, Pins
 from driveblocks.testing import bench
 from driveblocks.testing.code import NUMBERS, WORDS
@@ -40,7 +41,7 @@ def scripts(drive: Drive, stem: str) -> Iterator[Script]:
         ("ResetStop", "a fault reset, and the stops that go before it", _reset_stops()),
         ("KeepWord", "bits beside the commands' own pass through", _kept(drive)),
     ):
-        sources = dict.fromkeys(command.source for command in drive.operation.commands)
+        sources = dict.fromkeys(command.source for command in words(drive).commands)
         program = bench.script(drive, stem, subject, title, "; ".join(sources))
         bench.declare(program, Command=f"{drive.prefix}_Command")
         rows = list(steps)

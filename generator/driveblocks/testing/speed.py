@@ -4,6 +4,7 @@ from collections.abc import Iterator
 from fractions import Fraction
 
 from driveblocks.maps.model import Drive
+from driveblocks.meaning.reference import reference
 from driveblocks.reference.single import stored
 from driveblocks.reference.speed import SpeedReference
 from driveblocks.testing import bench
@@ -22,7 +23,7 @@ USUAL_MAXIMUM, USUAL_SCALE = 50.0, 10.0
 
 
 def scripts(drive: Drive, stem: str) -> Iterator[Script]:
-    source = drive.operation.reference.source
+    source = reference(drive).said.source
     program = bench.script(drive, stem, "Reference", "a frequency as the word for the reference register", source)
     bench.declare(program, Encode=f"{drive.prefix}_Reference")
     model = SpeedReference(drive)

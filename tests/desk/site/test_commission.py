@@ -23,8 +23,8 @@ from driveblocks.desk.site.found import Answer, Asker, Found, Measured, Set, Way
 from driveblocks.desk.site.found import Line as LineOf
 from driveblocks.desk.site.session import Wish, commission
 from driveblocks.maps.model import Condition, Identity
-from driveblocks.maps.polls import polls
 from driveblocks.maps.problem import MapError
+from driveblocks.meaning.polls import polls
 from driveblocks.modbus.frame import opened, seal
 from driveblocks.simulator.drive import SimulatedDrive
 from structured_text import files

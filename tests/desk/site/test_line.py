@@ -15,7 +15,7 @@ from driveblocks.desk.run import source, wiring
 from driveblocks.desk.run.controller import Controller
 from driveblocks.desk.site import asked
 from driveblocks.desk.site.line import Line, figures
-from driveblocks.maps.polls import polls
+from driveblocks.meaning.polls import polls
 from driveblocks.simulator.drive import SimulatedDrive
 from driveblocks.simulator.habits import Habits
 

@@ -14,10 +14,11 @@ from driveblocks.desk.site.line import LEARNED_AFTER, PINS, SLOT, Line, Unit, nu
 from driveblocks.desk.words import time
 from driveblocks.maps import catalog
 from driveblocks.maps.collection import Source
-from driveblocks.maps.plan import reply_delay, writes_by
-from driveblocks.maps.polls import Poll, polls
+from driveblocks.maps.plan import writes_by
 from driveblocks.maps.problem import Refused
+from driveblocks.meaning.polls import Poll, polls
 from driveblocks.meaning.serial import FORMS, USUAL_BITS, USUAL_RATE, character, delivered, serial
+from driveblocks.meaning.words import words as commands
 from structured_text import files
 from structured_text.engines.embedded.library import EmbeddedInstance
 from structured_text.visible import file_name
@@ -154,7 +155,7 @@ def _line(words: Words, seen: Controller, loaded: source.Loaded, times: Mapping[
     port = f"{seen.wiring.port}.LateMs" if seen.wiring.port else f"{bus}.PortLateMs"
     keeps = f"{seen.wiring.port}.KeepsSilence" if seen.wiring.port else f"{bus}.KeepsSilence"
     scan, unlearned = times["scan"] or 0, _slots(seen, size)
-    delays = (reply_delay(each.drive)[0] or 0 for each in _units(seen, size) if each.drive)
+    delays = (serial(each.drive).delay_ms for each in _units(seen, size) if each.drive)
     reply = times["reply"] or max([USUAL_REPLY_MS, *delays])
     for at in range(size):
         block[f"{bus}.Slots[{at}].Replies"] = LEARNED_AFTER
@@ -196,8 +197,7 @@ def _requests(seen: Controller, size: int) -> dict[str, int]:
     for at in range(size):
         drive = drives.get(number(seen.instance, f"{seen.wiring.line}.Slots[{at}].UnitAddress"))
         if drive:
-            stop = next(one for one in drive.operation.commands if one.does == "stop")
-            found[f"Slots[{at}].Ask[0].FunctionCode"] = writes_by(drive, stop.register)
+            found[f"Slots[{at}].Ask[0].FunctionCode"] = writes_by(drive, commands(drive).stop.last.register)
             found[f"Slots[{at}].Ask[3].Quantity"] = max(each.words for each in polls(drive))
     return found
 

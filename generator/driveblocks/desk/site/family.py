@@ -10,7 +10,7 @@ from driveblocks.desk.site.register import rows
 from driveblocks.maps.form import Span, address_text
 from driveblocks.maps.model import Drive
 from driveblocks.maps.plan import dialect, plan, read_request
-from driveblocks.maps.polls import Poll, identity_read, polls
+from driveblocks.meaning.polls import Poll, identity_read, polls
 from driveblocks.meaning.status import status
 from driveblocks.simulator.refusal import codes
 

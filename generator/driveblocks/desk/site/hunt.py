@@ -9,7 +9,7 @@ from driveblocks.desk.site.line import RATES
 from driveblocks.desk.site.talk import LOOK, Talk, ended
 from driveblocks.maps.form import Span
 from driveblocks.maps.model import Drive
-from driveblocks.maps.polls import identity_read, polls
+from driveblocks.meaning.polls import identity_read, polls
 from driveblocks.meaning.serial import serial
 from driveblocks.modbus.layout import Dialect
 from driveblocks.modbus.scan import pieces

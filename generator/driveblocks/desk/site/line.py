@@ -5,8 +5,9 @@ from dataclasses import dataclass
 from math import ceil
 
 from driveblocks.maps.model import Drive
-from driveblocks.maps.polls import REPLY, REQUEST, WORD, Poll, schedule
+from driveblocks.meaning.polls import REPLY, REQUEST, WORD, Poll, schedule
 from driveblocks.meaning.serial import serial
+from driveblocks.meaning.watchdog import feeds
 from structured_text.engines.embedded import EmbeddedInstance, EmbeddedLibrary
 
 RATES = (1200, 2400, 4800, 9600, 19200, 38400, 57600, 115200)
@@ -137,7 +138,7 @@ class Aged:
         drive, own = self.unit.drive, self.promised
         if not (self.unit.watchdog_ms and drive):
             return None
-        return own.worst if drive.watchdog and drive.watchdog.feeds in ("read", "any") else own.feed
+        return own.worst if feeds(drive) in ("read", "any") else own.feed
 
     @property
     def margin(self) -> int | None:

@@ -16,7 +16,7 @@ from driveblocks.maps.form import Span, address_text
 from driveblocks.maps.model import Drive
 from driveblocks.maps.pair import whole
 from driveblocks.maps.plan import most, read_request
-from driveblocks.maps.polls import identity_read, polls
+from driveblocks.meaning.polls import identity_read, polls
 from driveblocks.meaning.serial import serial
 from driveblocks.simulator.refusal import codes
 

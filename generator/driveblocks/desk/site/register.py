@@ -9,6 +9,7 @@ from driveblocks.maps.model import Drive, Register
 from driveblocks.maps.pair import is_first, number_of, whole
 from driveblocks.maps.plan import group
 from driveblocks.meaning.quantity import of_row
+from driveblocks.meaning.setting import settings
 
 
 @dataclass(frozen=True)
@@ -27,7 +28,7 @@ class Row:
 
 def rows(drive: Drive) -> list[Row]:
     """Every readable register: those of the tables, then areas by number, but none of an area with forbidden ids."""
-    defaults = {each.register: each.default or "" for each in drive.settings if each.register is not None}
+    defaults = {each.register: each.default for each in settings(drive) if each.register is not None}
     found: dict[int, Row] = {}
     for section, one in drive.registers():
         access = one.access or section.access

@@ -7,8 +7,8 @@ from rich.console import RenderableType
 from rich.text import Text
 
 from driveblocks.desk.site.line import BROKEN, Aged, Figures, Line, Promised
-from driveblocks.maps.conduct import reply_delay
 from driveblocks.maps.rivals import Pair, pairs, warning
+from driveblocks.meaning.conduct import reply_delay
 from driveblocks.show.layout import facts, table
 
 

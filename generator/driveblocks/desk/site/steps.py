@@ -14,8 +14,9 @@ from driveblocks.desk.site.hunt import first_read
 from driveblocks.desk.site.register import rows, spans
 from driveblocks.desk.site.talk import EndedError, Talk, ended
 from driveblocks.maps.form import Span, address_text
-from driveblocks.maps.model import Absence, Drive, Setting
+from driveblocks.maps.model import Absence, Drive
 from driveblocks.maps.plan import most, plan
+from driveblocks.meaning.setting import Setting, settings
 from driveblocks.show.layout import table
 
 READS = 200
@@ -35,20 +36,20 @@ ASKED = 3
 def keypad(talk: Talk, asker: Asker, found: Found) -> None:
     """Read back what can be read of what must be set, and ask once for the rest. Raises EndedError."""
     allowed = plan(talk.drive).readable
-    for each in talk.drive.settings:
+    for each in settings(talk.drive):
         if each.needed is None:
             continue
         readable = each.register is not None and any(each.register in span for span in allowed)
         words = _words(talk, Span(each.register, each.register)) if readable and each.register is not None else ()
         found.settings.append(Set(each.id, each.name, words[0] if words else None, each.needed.right, each.needed.why))
     made = table("id", "setting", "is", "must be", "why", wide=("setting", "why"))
-    settings = {each.id: each for each in talk.drive.settings}
+    known = {each.id: each for each in settings(talk.drive)}
     for one in found.settings:
-        known = settings[one.id]
-        made.add_row(one.id, one.name, named(known, one.read) or "?", _right(known, one.must) or "as the PLC", one.why)
+        is_, must = named(known[one.id], one.read) or "?", _right(known[one.id], one.must) or "as the PLC"
+        made.add_row(one.id, one.name, is_, must, one.why)
     asker.say(made)
-    for each in (settings[one.id] for one in found.settings):
-        if each.visible_when:
+    for each in (known[one.id] for one in found.settings):
+        if each.shown_while:
             asker.say(f"{each.id} is shown only while {_conditions(each)}")
     for one in (each for each in found.settings if each.differs):
         asker.say(f"{one.id} is {one.read} and must be {' or '.join(map(str, one.must))}: set it at the keypad")
@@ -82,8 +83,7 @@ def _differing(asker: Asker, ids: Collection[str]) -> set[str] | None:
 
 def named(setting: Setting, number: int | None) -> str:
     """A value as the keypad has it, with its name."""
-    name = next((each.name for each in setting.values if each.value == number), "")
-    return "" if number is None else f"{number} {name}".strip()
+    return "" if number is None else f"{number} {setting.named(number)}".strip()
 
 
 def _right(setting: Setting, numbers: Collection[int]) -> str:
@@ -91,7 +91,7 @@ def _right(setting: Setting, numbers: Collection[int]) -> str:
 
 
 def _conditions(setting: Setting) -> str:
-    return " and ".join(f"{each.setting} = {each.value}" for each in setting.visible_when)
+    return " and ".join(f"{other} = {value}" for other, value in setting.shown_while)
 
 
 def _words(talk: Talk, span: Span) -> tuple[int, ...]:

@@ -1,13 +1,16 @@
-"""Rules on commands: their registers, their values or bits, and what stays set after them."""
+"""Rules on commands: their registers, their values or bits, their steps, and what these wait for."""
 
 from driveblocks.maps.form import address_text, bits_text
 from driveblocks.maps.model import Command, Does, Drive, Range, Register, Step
 from driveblocks.maps.problem import Place, Report
-from driveblocks.maps.rules import path, word
+from driveblocks.maps.rules import word
 from driveblocks.maps.rules.access import cyclic
 from driveblocks.maps.rules.condition import bit_at
 from driveblocks.maps.rules.unique import unique
-from driveblocks.meaning.words import Write, words
+from driveblocks.meaning.words import STOPS, Write, words
+
+_LONGEST_MS = 60_000
+_SILENT_MS = 5_000
 
 
 def check(drive: Drive, report: Report) -> None:
@@ -25,7 +28,14 @@ def check(drive: Drive, report: Report) -> None:
         if does not in seen:
             wrong = f"there is no command `{does}`"
             report.miss(drive.operation.place("commands"), wrong, "a drive that cannot run or stop is of no use")
-    path.check(drive, report)
+    states = unique(drive.operation.states, "name", "state", report)
+    for command in commands:
+        if command.first and command.does in STOPS:
+            wrong = f"`{command.does}` has writes before it"
+            report.add(command.place("first"), wrong, "a stop is one write, at once and whatever the state")
+        _silence(command, report)
+        for step in command.first:
+            _step(step, set(states), report)
     word.check(drive, good, report)
 
 
@@ -107,3 +117,25 @@ def _fields(one: Command | Step, sent: Write, does: Does, row: Register, report:
             report.add(place, f"`{does}` writes a part of {what}", "set or clear every bit of a field")
         elif number not in {value.value for value in field.values}:
             report.miss(place, f"{number} is no value of {what}", "write one of the listed values")
+
+
+def _silence(command: Command, report: Report) -> None:
+    """Note a silence that no block waits for: after a stop or a run the drive is asked at once."""
+    silent = [one for one in command.writes if one.silent_ms is not None]
+    for one in silent:
+        place = one.place("silent_ms")
+        if command.does != "fault_reset":
+            wrong = f"the drive is silent after a write of `{command.does}`"
+            report.add(place, wrong, "only a fault reset may be waited for; say it under `notices`")
+        elif one is not silent[0]:
+            report.add(place, "the drive is silent after two writes of a fault reset", "keep the first")
+        elif (one.silent_ms or 0) > _SILENT_MS:
+            report.add(place, f"a silence of {one.silent_ms} ms", f"write at most {_SILENT_MS}: a reset has 10 s")
+
+
+def _step(step: Step, states: set[str], report: Report) -> None:
+    if step.until is not None and step.until not in states:
+        report.miss(step.place("until"), f"there is no state `{step.until}`", "name an entry of `states`")
+    if step.for_ms is not None and step.for_ms > _LONGEST_MS:
+        wrong = f"a word that stays for {step.for_ms} ms"
+        report.add(step.place("for_ms"), wrong, f"write at most {_LONGEST_MS}")

@@ -6,8 +6,7 @@ from driveblocks.maps.form import Span, address_text, bits_text
 from driveblocks.maps.model import Bit, Condition, Drive, Register, State, Value
 from driveblocks.maps.problem import Report
 from driveblocks.maps.rules.access import known
-
-WORD = 0xFFFF
+from driveblocks.meaning.pattern import WORD, bits_of, of_condition
 
 
 def check(drive: Drive, report: Report) -> None:
@@ -32,35 +31,23 @@ def bit_at(row: Register, number: int) -> Bit | None:
     return next((bit for bit in row.bits if number in bit.bit), None)
 
 
-def counted(condition: Condition | State) -> tuple[int, int]:
-    """The bits of the word that count, and what they must be, in their place."""
-    if isinstance(condition, State) or condition.bit is None:
-        return (WORD if condition.mask is None else condition.mask), condition.equals
-    return sum(1 << number for number in condition.bit), condition.equals << condition.bit.first
-
-
 def called(row: Register, condition: Condition) -> Bit | Value | None:
     """The one bit or value that a condition asks for; None where it asks for several bits, a 0, or any other value."""
     if condition.differs:
         return None
-    mask, value = counted(condition)
+    asked = of_condition(condition)
+    mask, value = asked.mask, asked.value
     for bit in row.bits:
-        if mask == sum(1 << number for number in bit.bit):
+        if mask == bits_of([bit.bit]):
             listed = (one for one in bit.values if one.value == value >> bit.bit.first)
             return next(listed, bit if value and len(bit.bit) == 1 and not bit.values else None)
     whole = mask == (value if row.masks else WORD)
     return next((one for one in row.values if whole and one.value == value), None)
 
 
-def exclude(one: Condition | State, other: Condition | State) -> bool:
-    """Whether two conditions never hold at once: a bit of the same register that both ask for, and not alike.
-
-    One that differs is excluded by its value alone.
-    """
-    (mask, value), (mask_2, value_2) = counted(one), counted(other)
-    if isinstance(one, Condition) and one.differs:
-        return one.register == other.register and mask & mask_2 == mask and value_2 & mask == value
-    return one.register == other.register and bool(mask & mask_2 & (value ^ value_2))
+def exclude(one: Condition, other: Condition) -> bool:
+    """Whether two conditions never hold at once."""
+    return of_condition(one).excludes(of_condition(other))
 
 
 def _condition(drive: Drive, condition: Condition | State, bit: Span | None, report: Report) -> None:

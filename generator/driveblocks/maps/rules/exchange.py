@@ -99,7 +99,7 @@ def _quantity(drive: Drive, frame: Frame, quantity: Quantity, carrier: adu.Field
         report.miss(quantity.place("register"), wrong, "name a register whose value it carries")
         return
     raw = number_of(row, frame.means.values[index : index + row.size])
-    dues = [Decimal(raw) * factor for _, factor in row.scale.choices]
+    dues = [Decimal(raw) * one.factor for one in row.scale.choices]
     if quantity.value not in dues:
         wrong = f"{quantity.value} {quantity.unit}, but {raw} x {row.scale.factor} is {dues[0]}"
         report.add(quantity.place("value"), wrong, "correct the scale or the quantity")

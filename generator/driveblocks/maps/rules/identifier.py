@@ -6,8 +6,8 @@ from collections.abc import Iterable, Iterator
 from driveblocks.maps import names
 from driveblocks.maps.form import span_text
 from driveblocks.maps.model import Bit, Drive, Register, Value
-from driveblocks.maps.polls import fast_words, slow_words
 from driveblocks.maps.problem import Report
+from driveblocks.meaning.polls import fast_words, slow_words
 
 LIBRARY = ("MB", "VFD", "LX", "CD", "SI", "TC")
 """Prefixes of the blocks that every drive shares, of the harness of the tests, and of the platforms' adapters."""

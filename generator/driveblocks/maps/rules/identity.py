@@ -7,7 +7,7 @@ from driveblocks.maps.form import address_text
 from driveblocks.maps.model import Condition, Drive, Identity, InCommand, OwnMaximum
 from driveblocks.maps.problem import Report
 from driveblocks.maps.rules.access import known
-from driveblocks.maps.rules.condition import called, counted, exclude
+from driveblocks.maps.rules.condition import called, exclude
 
 _BUS = ("bus", "communication", "network", "remote", "serial", "rs-485", "rs485", "通讯", "通信", "总线", "远程")
 _ELSEWHERE = ("keypad", "panel", "terminal", "local", "operator", "键盘", "面板", "端子", "本地", "操作器")
@@ -38,7 +38,7 @@ def _conditions(one: Identity | InCommand, report: Report) -> None:
 
 
 def _identity(drive: Drive, identity: Identity, report: Report) -> None:
-    if identity.all and not any(counted(condition)[1] for condition in identity.all):
+    if identity.all and not any(condition.equals for condition in identity.all):
         wrong = "nothing but zeros proves no family: a register that is not in use may read 0, too"
         report.add(identity.place("all"), wrong, "ask for a code that the manual gives")
     moving = {*_written(drive), *_shown(drive)}

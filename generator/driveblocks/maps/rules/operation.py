@@ -13,24 +13,19 @@ from driveblocks.maps.model import (
     Register,
     Shows,
     Status,
-    Unit,
     Value,
 )
+from driveblocks.maps.names import UNIT_NAMES
 from driveblocks.maps.problem import Report
 from driveblocks.maps.rules import term
 from driveblocks.maps.rules.access import cyclic, known
 from driveblocks.maps.rules.condition import called
 from driveblocks.maps.rules.parameter import of_form
 from driveblocks.maps.rules.unique import unique
+from driveblocks.meaning.measure import PINS
 
-_UNITS: dict[Measure, Unit] = {
-    "output_frequency": "Hz", "output_current": "A", "output_voltage": "V", "dc_bus_voltage": "V",
-    "output_power": "kW", "output_speed": "r/min", "output_torque": "%", "relative_power": "%",
-    "drive_temperature": "°C", "motor_temperature": "°C", "operating_time": "h", "energy": "kWh",
-}  # fmt: skip
-"""What each pin shows its value in."""
-_SETTINGS = ("output_frequency", "output_current", "output_voltage", "dc_bus_voltage", "output_power")
-"""What a setting can replace the scale of."""
+_UNITS = {name: unit for unit, name in UNIT_NAMES.items()}
+"""The last part of a pin's name -> the unit that it shows its value in."""
 _PARTS = {"percent_of_maximum": "percentage", "fraction_of_full_scale": "fraction"}
 _LEAST_HZ, _MOST_HZ = Decimal("0.1"), Decimal(10_000)
 """What 100 % can be."""
@@ -74,14 +69,15 @@ def _other(pin: str, named: Bit | Value | Register, pins: tuple[str, ...]) -> bo
 def _measured(drive: Drive, measured: Measured, report: Report) -> None:
     place = measured.place("register")
     row = known(drive, measured.register, "r", place, report)
-    unit = _UNITS[measured.shows]
+    pin = PINS[measured.shows]
+    unit = _UNITS[pin.unit]
     if row is not None and (row.values or row.bits):
         wrong = f"{address_text(measured.register)} lists {'values' if row.values else 'bits'}"
         report.add(place, f"{wrong}, which are no {measured.shows}", "name the register that holds the number")
     elif row is not None and row.unit not in (None, unit):
         wrong = f"`{measured.shows}` is shown in {unit}, but {address_text(measured.register)} has the unit {row.unit}"
         report.add(place, wrong, "name another register, or correct its `unit`")
-    elif row is not None and measured.shows not in _SETTINGS and not (row.unit and row.scale):
+    elif row is not None and not (pin.setting or (row.unit and row.scale)):
         wrong = f"`{measured.shows}` is shown in {unit}, but {address_text(measured.register)} has no unit with a scale"
         report.miss(place, wrong, "add both to the register where the manual gives them; else leave the measure out")
     elif row is not None and (

@@ -3,8 +3,8 @@
 from collections.abc import Callable
 
 from driveblocks.maps.model import Drive
-from driveblocks.maps.polls import identity_read, polls
 from driveblocks.maps.problem import Place, Report
+from driveblocks.meaning.polls import identity_read, polls
 
 
 def check(drive: Drive, report: Report) -> None:

@@ -6,10 +6,10 @@ from driveblocks.maps.form import address_text, is_bit, space_of
 from driveblocks.maps.model import Condition, Drive, State, Use
 from driveblocks.maps.pair import is_first
 from driveblocks.maps.plan import reads_by, used, writes_by
-from driveblocks.maps.polls import fast_words, slow_words
 from driveblocks.maps.problem import Place, Report
+from driveblocks.meaning.polls import fast_words, slow_words
+from driveblocks.meaning.words import STOPS
 
-STOPS = ("stop", "quick_stop", "coast_stop", "jog_stop")
 WORD, SIGNED = 0xFFFF, 0x7FFF
 
 

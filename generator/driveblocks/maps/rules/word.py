@@ -11,16 +11,14 @@ from driveblocks.meaning.words import (
     UNKNOWN,
     Cause,
     Command,
-    CommandWord,
     Words,
     Write,
     words,
 )
 
-_KIND: dict[Does, Act] = {
-    "stop": "stops", "quick_stop": "quick_stops", "coast_stop": "coasts", "jog_stop": "ends_jog",
-}  # fmt: skip
+_KIND = {does: act for act, does in KINDS.items()}
 """How each stop stops."""
+_ORDER = "write the direction first and the run bit last"
 _CORRECT = "correct the command, or what the register's row says that it `does`"
 
 
@@ -29,9 +27,7 @@ def check(drive: Drive, good: set[Does], report: Report) -> None:
     known = words(drive)
     commands = [one for one in known.commands if one.does in good]
     silent = {one.register for one in known.registers if not one.declared}
-    for register in dict.fromkeys(
-        write.register for one in commands for write in one.writes if write.register in silent
-    ):
+    for register in sorted(silent & {write.register for one in commands for write in one.writes}):
         _silent(register, drive.register_at(register, "w"), report)
     for _, row in drive.registers():
         _row(row, report)
@@ -45,17 +41,14 @@ def _silent(register: int, row: Register | None, report: Report) -> None:
     if row is not None:
         key, what = ("bits", "bits") if row.bits else ("values", "values") if row.values else ("address", "value")
         wrong = f"nothing says what the {what} of {address_text(register)} do{'es' * (what == 'value')} to the motor"
-        report.miss(row.place(key), wrong, "give each what it `does`, such as `does: [starts]`; names decide nothing")
+        right = "write beside each what it does: `does: [starts]`, `[stops]`, `[resets]`, `[reverses]`, `[nothing]`"
+        report.miss(row.place(key), wrong, right)
 
 
 def _row(row: Register, report: Report) -> None:
     """Note what no field can do."""
-    every: list[Register | Bit | Value] = [
-        row,
-        *row.bits,
-        *row.values,
-        *(value for bit in row.bits for value in bit.values),
-    ]
+    values = (*row.values, *(value for bit in row.bits for value in bit.values))
+    every: tuple[Register | Bit | Value, ...] = (row, *row.bits, *values)
     for one in every:
         if "nothing" in one.does and len(one.does) > 1:
             report.add(one.place("does"), "`nothing` beside something else", "keep one of them")
@@ -68,15 +61,14 @@ def _row(row: Register, report: Report) -> None:
 def _command(known: Words, command: Command, report: Report) -> None:
     """Note a write that moves the motor and must not, or the contrary, and one that hands the drive over."""
     for write in command.writes:
-        word = known.at(write.register)
-        over = next((one for one in word.causes(write.held) if "hands_over" in one.effect.acts), None) if word else None
+        over = [one for one in known.of(write).causes(write.held) if "hands_over" in one.effect.acts]
         if over:
-            report.add(write.at, _wrong(command, write, over, "hands_over"), "clear it, or keep it out by `never`")
+            report.add(write.at, _wrong(command, write, over[0], "hands_over"), "clear it, or keep it out by `never`")
     moving = known.moving(command)
     if command.does in MOTIONS:
         for _, write, cause in moving[:-1]:
             wrong = f"{_wrong(command, write, cause)} before its last write"
-            report.add(write.at, wrong, "write the direction first and the run bit last")
+            report.add(write.at, wrong, _ORDER)
         _motion(known, command, moving, report)
         return
     for _, write, cause in moving:
@@ -109,11 +101,9 @@ def _motion(known: Words, command: Command, moving: list[tuple[int, Write, Cause
         report.miss(command.last.at, _lacks(command, command.last, wanted), _CORRECT)
         return
     number, write, cause = moving[-1]
-    word = known.at(write.register)
-    assert word is not None  # noqa: S101  (it moved)
     if wanted not in cause.effect.acts or not cause.effect.declared:
         report.add(write.at, _wrong(command, write, cause), _CORRECT)
-    for one in word.certain(write.held):
+    for one in known.of(write).certain(write.held):
         also = next((act for act in (*KINDS, "resets") if one.value and act in one.effect.acts), None)
         if also:
             report.add(write.at, _wrong(command, write, one, also), _CORRECT)
@@ -139,32 +129,30 @@ def _way(known: Words, command: Command, number: int, report: Report) -> None:
     for word, one in every:
         if wrong in one.effect.acts:
             told = word.register in held
-            where = _wrong(command, write, one, wrong) if told else _open(command, word, one, wrong)
-            report.add(write.at, where, _CORRECT if told else "write the direction first and the run bit last")
+            where = f"`{command.does}` does not write {address_text(word.register)}, where {one} {DOES[wrong]}"
+            if told:
+                report.add(write.at, _wrong(command, write, one, wrong), _CORRECT)
+            else:
+                report.add(write.at, where, _ORDER)
             return
     ways = {act for word in known.registers for one in word.causes(UNKNOWN) for act in one.effect.acts}
     if right in ways | {"reverses"} and right not in sure:
         report.miss(write.at, _lacks(command, write, right), _CORRECT)
 
 
-def _open(command: Command, word: CommandWord, one: Cause, act: Act) -> str:
-    return f"`{command.does}` does not write {address_text(word.register)}, where {one} {DOES[act]}"
-
-
 def _stop(known: Words, command: Command, report: Report) -> None:
     """Note a stop that stops nothing, or in another way; a word that ends a jog may stop a run as well."""
     write, wanted = command.last, _KIND[command.does]
-    word = known.at(write.register)
-    kind = word.stops(write.held) if word else None
-    cause = word.gives(kind, write.held) if word and kind else None
-    if cause is None:
+    word = known.of(write)
+    kind = word.stops(write.held)
+    cause = word.gives(kind, write.held) if kind else None
+    if kind is None or cause is None:
         report.miss(write.at, _lacks(command, write, wanted), _CORRECT)
-    elif kind != wanted and not (word and wanted == "ends_jog" and word.gives(wanted, write.held)):
+    elif kind != wanted and not (wanted == "ends_jog" and word.gives(wanted, write.held)):
         report.add(write.at, _wrong(command, write, cause, kind), _CORRECT)
 
 
 def _reset(known: Words, command: Command, report: Report) -> None:
     """Note a fault reset that resets nothing."""
-    words_ = ((known.at(write.register), write) for write in command.writes)
-    if not any(word.gives("resets", write.held) for word, write in words_ if word):
+    if not any(known.of(write).gives("resets", write.held) for write in command.writes):
         report.miss(command.last.at, _lacks(command, command.last, "resets"), _CORRECT)

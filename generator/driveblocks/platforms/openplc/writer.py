@@ -17,7 +17,7 @@ def write(shelf: Shelf) -> dict[str, str]:
     volumes, port = tuple(shelf.volumes()), shelf.port(LINUX)
     made = {f"{one.layer}/{one.name}.st": _joined(one) for one in (*volumes, *port)}
     for drive in shelf.drives.values():
-        bytes_ = render(f"{PLATFORM}/Bytes.st.j2", **vars(motor(drive)))
+        bytes_ = render(f"{PLATFORM}/Bytes.st.j2", **motor(drive))
         made[f"{YOURS}/{drive.prefix}_Motor.st"] = _tasked(shelf.motor(LINUX, drive).text, f"{drive.prefix}_Motor")
         made[f"{YOURS}/{drive.prefix}_MotorBytes.st"] = _tasked(bytes_, f"{drive.prefix}_MotorBytes")
     return made | page(PLATFORM, shelf, (*volumes, *port))

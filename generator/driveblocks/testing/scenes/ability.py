@@ -4,11 +4,13 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from driveblocks.maps.model import Drive
-from driveblocks.maps.polls import meaning_words, polls
 from driveblocks.meaning.measure import measures
+from driveblocks.meaning.polls import meaning_words, polls
+from driveblocks.meaning.reference import reference
 from driveblocks.meaning.status import status
-from driveblocks.simulator.move import MOTIONS
-from driveblocks.testing.scenes.drive import ORDERS
+from driveblocks.meaning.watchdog import feeds
+from driveblocks.meaning.words import MOTIONS, Command, words
+from driveblocks.render.constants import ORDERS, STOPS
 
 
 @dataclass(frozen=True)
@@ -19,12 +21,17 @@ class Ability:
 
     def can(self, does: str) -> bool:
         """Whether it has a command."""
-        return any(one.does == does for one in self.drive.operation.commands)
+        return does in words(self.drive).named
 
     def order(self, does: str) -> int:
         """Number of the motion that the drive is commanded for one: a negative reference turns a run forward round."""
-        found = next((one.written_as for one in self.drive.operation.commands if one.does == does), does)
-        return ORDERS[found]
+        one = words(self.drive).named.get(does)
+        return ORDERS["run_forward" if one and one.negative else does]
+
+    @property
+    def run(self) -> Command:
+        """The command that every family has."""
+        return words(self.drive).named["run_forward"]
 
     def shows(self, what: str) -> bool:
         """Whether its status shows something."""
@@ -36,8 +43,7 @@ class Ability:
 
     def kind(self, wanted: str) -> int:
         """Number of the stop that is sent where one is wanted: the drive's own, else its stop."""
-        kinds = {"stop": 1, "quick_stop": 2, "coast_stop": 3}
-        return kinds[wanted if self.can(wanted) else "stop"]
+        return STOPS[wanted if self.can(wanted) else "stop"]
 
     @cached_property
     def absent(self) -> frozenset[str]:
@@ -50,16 +56,13 @@ class Ability:
     @cached_property
     def runs_at_once(self) -> bool:
         """Whether a run is one write, in a register of its own."""
-        operation = self.drive.operation
-        forward = next(one for one in operation.commands if one.does == "run_forward")
-        return not forward.first and forward.register != operation.reference.register
+        return len(self.run.writes) == 1 and self.run.last.register != reference(self.drive).register
 
     @cached_property
     def feeds(self) -> str:
         """What feeds its watchdog, which a drive block takes for the reference unless the map says more."""
-        watchdog = self.drive.watchdog
-        named = watchdog.feeds if watchdog else None
-        return {None: "reference", "any": "read"}.get(named, named or "reference")
+        named = feeds(self.drive) or "reference"
+        return "read" if named == "any" else named
 
     @cached_property
     def settings_come_first(self) -> bool:

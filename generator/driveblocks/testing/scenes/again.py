@@ -41,7 +41,7 @@ def _midst(can: Ability) -> Iterator[tuple[str, list[Step]]]:
     yield "while it ramps down", [run(), Step("released", {"RunForward": False}, "Seen.Stopping", 300)]
     if can.can("jog_forward"):
         yield "while it jogs", [Step("it jogs", {"JogForward": True}, "Seen.Milli > 2000", 1500)]
-    register = next(one.register for one in can.drive.operation.commands if one.does == "run_forward")
+    register = can.run.last.register
     lost: Shows = {"Fate.Skips": True, "Fate.Skipped": word(mark(register)), "RunForward": True}
     yield "while a start waits for its answer", [Step("no answer", lost, why("STARTING"), 500), Step("", ms=100)]
     yield (

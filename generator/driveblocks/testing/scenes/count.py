@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from driveblocks.maps.model import Drive
-from driveblocks.maps.polls import polls
+from driveblocks.meaning.polls import polls
 from driveblocks.meaning.serial import serial
 from driveblocks.testing.scenes.ability import Ability
 from driveblocks.testing.scenes.motor import POWER, RUNNING, STANDS, run

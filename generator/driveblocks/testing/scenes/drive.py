@@ -9,21 +9,22 @@ import jinja2
 
 from driveblocks.maps.form import SPACES, Span, address_name, address_text, space_of, wire
 from driveblocks.maps.model import Drive, kept
+from driveblocks.maps.plan import busy, merged
 from driveblocks.maps.rivals import own_address
 from driveblocks.meaning.pattern import Pattern
 from driveblocks.meaning.status import registers, status
+from driveblocks.meaning.words import MOTIONS
+from driveblocks.render.constants import ORDERS, STOPS
 from driveblocks.render.environment import strict
 from driveblocks.simulator.copies import RPM_OF_ONE_PAIR
 from driveblocks.simulator.habits import Habits
-from driveblocks.simulator.move import MOTIONS, STATE, STOPS, Move, Need
+from driveblocks.simulator.move import EFFECTS, STATE, Move, Need
 from driveblocks.simulator.plate import chosen, own_maximum_word
 from driveblocks.simulator.table import Gauge, Table, table
 from structured_text.language.writing import byte, comment, word
 
 Context = dict[str, Any]
 
-KINDS = {"stop": 1, "quick_stop": 2, "coast_stop": 3, "jog_stop": 4}
-ORDERS = {"run_forward": 5, "run_reverse": 6, "jog_forward": 7, "jog_reverse": 8}
 MAXIMUM_HZ = 50
 
 
@@ -43,12 +44,6 @@ def text(drive: Drive, faults: Iterable[int]) -> str:
 @kept
 def simulated(drive: Drive) -> Table:
     return table(drive, Habits(maximum_hz=MAXIMUM_HZ))
-
-
-def busy(drive: Drive) -> int:
-    """Its code for: busy, try again later; 0: it has none."""
-    found = (each for each in drive.errors.codes if each.busy)
-    return next((code.code or next((one.value or 0 for one in code.corroborated), 0) for code in found), 0)
 
 
 def counts_per_hertz(drive: Drive) -> float:
@@ -87,10 +82,10 @@ def _context(drive: Drive, made: Table, numbers: tuple[int, ...]) -> Context:
         "two_byte_count": made.dialect.two_byte_count,
         "most": made.most,
         "tables": _tables(made),
-        "readable": _within("Number", _joined(_marked(made.readable))),
-        "writable": _within("Number", _joined(_marked(made.writable))),
+        "readable": _within("Number", merged(_marked(made.readable))),
+        "writable": _within("Number", merged(_marked(made.writable))),
         "limits": [_limit(one) for one in made.limits if one.above is None],
-        "parameters": _within("Number", _joined(made.storage.areas)) or "FALSE",
+        "parameters": _within("Number", merged(made.storage.areas)) or "FALSE",
         "home": _home(made),
         "faces": [_face(made, register) for register in made.named],
         "shown": _shown(drive, made, numbers),
@@ -159,17 +154,6 @@ def _tables(made: Table) -> list[Context]:
     ]
 
 
-def _joined(spans: Iterable[Span]) -> list[Span]:
-    """Ranges in order, those that touch as one."""
-    found: list[Span] = []
-    for span in sorted(spans, key=lambda each: each.first):
-        if found and span.first <= found[-1].last + 1:
-            found[-1] = Span(found[-1].first, max(span.last, found[-1].last))
-        else:
-            found.append(span)
-    return found
-
-
 def _within(variable: str, spans: Iterable[Span]) -> str:
     """The test whether a number lies in one of some ranges, some to a line."""
     tests = [_between(variable, span) for span in spans]
@@ -197,7 +181,7 @@ def _home(made: Table) -> Context | None:
     if not storage.add:
         return None
     moved = [Span(span.first + storage.add, span.last + storage.add) for span in storage.areas]
-    return {"test": _within("Number", _joined(moved)), "add": storage.add}
+    return {"test": _within("Number", merged(moved)), "add": storage.add}
 
 
 def _stored(made: Table) -> str:
@@ -207,7 +191,7 @@ def _stored(made: Table) -> str:
         return f"(Number = {storage.register})" if storage.register >= 0 else "FALSE"
     if not storage.at_once:
         return "FALSE"
-    return _within("Number", _joined(storage.areas)) or "FALSE"
+    return _within("Number", merged(storage.areas)) or "FALSE"
 
 
 def _refusal(made: Table) -> Context:
@@ -320,7 +304,7 @@ def _proof(drive: Drive) -> Context:
 def _weight(move: Move) -> tuple[int, int]:
     """Their order: of two stops the weaker first, motions behind all; the last one counts."""
     if move.effect in STOPS:
-        return (0, -STOPS.index(move.effect))
+        return (0, -EFFECTS.index(move.effect))
     return (1 + (move.effect in MOTIONS), 0)
 
 
@@ -333,8 +317,8 @@ def _move(move: Move, at: dict[int, int], made: Table) -> Context:
 
 
 def _does(move: Move, made: Table) -> str:
-    if move.effect in KINDS:
-        return f"Halt := {KINDS[move.effect]};"
+    if move.effect in STOPS:
+        return f"Halt := {STOPS[move.effect]};"
     if move.effect == STATE:
         return f"Led := {made.states.index(move.into or '') + 1};"
     return "Resets := TRUE;" if move.effect == "fault_reset" else f"Order := {ORDERS[move.effect]};"

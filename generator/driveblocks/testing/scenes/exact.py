@@ -4,6 +4,10 @@ from collections.abc import Iterator
 
 from driveblocks.maps.model import Drive
 from driveblocks.maps.rivals import first_reads
+from driveblocks.meaning.measure import measures
+from driveblocks.meaning.serial import serial
+from driveblocks.meaning.watchdog import feeds, watchdog
+from driveblocks.meaning.words import words
 from driveblocks.testing.scenes.ability import Ability
 from driveblocks.testing.scenes.motor import POWER, STANDS, run
 from driveblocks.testing.scenes.reason import REASONS
@@ -74,7 +78,7 @@ def scenes(drive: Drive) -> Iterator[Scene]:
     yield scene("when a drive is dead", POWER, *_dead())
     yield scene("when a request is withdrawn", POWER, *_mailbox())
     yield scene("when every call comes late", POWER, *_late_calls())
-    if can.drive.operation.measures and can.turns == 1:
+    if measures(can.drive) and can.turns == 1:
         yield scene("how old a measure is", POWER, *_young())
     yield scene("silence after a restart", POWER, *_quiet(drive))
     yield scene("when a stop is overdue", POWER, run(), *_overdue())
@@ -91,12 +95,12 @@ def _refresh(drive: Drive) -> Iterator[Step]:
     yield Step("every five scans", usual, ms=100 * SCAN_MS, shows={
         "Seen.References - Mark": (19, 21), "Running": True,
     })  # fmt: skip
-    slow = drive.serial.silence is not None  # whose silence takes longer than that
+    slow = serial(drive).silence  # whose silence takes longer than that
     often: Shows = {"Pins.Settings.RefreshMs": 20}
     yield Step("every 20 ms", MS | often, ms=100 * SCAN_MS, shows={
         ".Period": (20, 40) if slow else 20, "Running": True,
     })  # fmt: skip
-    if drive.watchdog and drive.watchdog.feeds != "reference":
+    if watchdog(drive) and feeds(drive) != "reference":
         return
     fed: Shows = {"Pins.Settings.RefreshMs": 65535, "Pins.Settings.WatchdogMs": 60}
     yield Step("three times in the time of a watchdog", fed, ms=100 * SCAN_MS, shows={
@@ -169,7 +173,7 @@ def _stale() -> Iterator[Step]:
 
 def _follow(drive: Drive) -> Iterator[Step]:
     """Each state on the way to a run is proved first. The time is at least that of two reads in turn."""
-    run = next(one for one in drive.operation.commands if one.does == "run_forward")
+    states = len(words(drive).named["run_forward"].writes) - 1
     ignored: Shows = {
         "Fate.Local": True,
         "RunForward": True,
@@ -177,7 +181,7 @@ def _follow(drive: Drive) -> Iterator[Step]:
         "Pins.Settings.StaleMs": 1000,
     }
     yield Step("it does nothing", MS | ignored, why("NOT_FOLLOWED"), 30000, {
-        ".WaitedMs": _after(1005, 1080 + 80 * len(run.first)),
+        ".WaitedMs": _after(1005, 1080 + 80 * states),
     })  # fmt: skip
 
 

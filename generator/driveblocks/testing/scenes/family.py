@@ -8,14 +8,14 @@ from typing import Any
 
 from driveblocks.maps.form import is_bit
 from driveblocks.maps.model import Drive
-from driveblocks.maps.polls import fast_words, other_words, polls, schedule, slow_words
+from driveblocks.meaning.polls import fast_words, other_words, polls, schedule, slow_words
 from driveblocks.meaning.reference import reference
 from driveblocks.meaning.roles import roles
 from driveblocks.meaning.status import status
 from driveblocks.meaning.words import MOTIONS, Command, words
 from driveblocks.modbus.layout import COIL_ON
 from driveblocks.reference.naming import word_pin
-from driveblocks.testing.scenes.drive import KINDS, ORDERS
+from driveblocks.render.constants import ORDERS, STOPS
 from driveblocks.testing.scenes.scene import Shows
 from structured_text.language.writing import word
 
@@ -194,8 +194,8 @@ def _reads_of(drive: Drive) -> dict[str, set[int]]:
 
 def _orders(drive: Drive) -> Iterator[Row]:
     """Each write of each command; what is no command is a stop."""
-    numbers = KINDS | ORDERS | {"fault_reset": 9}
-    known = {one.does: one for one in words(drive).commands}
+    numbers = STOPS | ORDERS
+    known = words(drive).named
     several = _several(drive)
     none = ["none", {"Order": 0}, _write(known["stop"], 0, several=several)]
     yield none

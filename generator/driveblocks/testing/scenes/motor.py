@@ -3,9 +3,13 @@
 from collections.abc import Iterator
 
 from driveblocks.maps.model import Drive
-from driveblocks.maps.pair import whole
 from driveblocks.maps.trust import second_hand
+from driveblocks.meaning.measure import PINS as MEASURED
+from driveblocks.meaning.reference import reference
 from driveblocks.meaning.serial import serial
+from driveblocks.meaning.status import status
+from driveblocks.meaning.words import words
+from driveblocks.render import context
 from driveblocks.testing.scenes.ability import Ability
 from driveblocks.testing.scenes.drive import mark
 from driveblocks.testing.scenes.scene import Scene, Shows, Step, scene, script, why
@@ -15,12 +19,7 @@ from structured_text.language.writing import word
 TOLD = "Seen.UntoldMs < 50"
 """The drive has just received a stop."""
 POWER = Step("power-up", until="Motor.Ready", ms=2000, shows={"Reason": "READY"}, brisk=True)
-PINS = {
-    "run_forward": "RunForward",
-    "run_reverse": "RunReverse",
-    "jog_forward": "JogForward",
-    "jog_reverse": "JogReverse",
-}
+PINS = {does: pin for pin, does in context.MOTIONS.items()}
 RUNNING: Shows = {"Running": True, "Reason": "RUNS", "StopConfirmed": False, "Error": False, "CommOk": True}
 STANDS: Shows = {"StopConfirmed": True, "Running": False, "Seen.Driven": False, "OutputFrequencyHz": 0.0}
 NOTHING_STARTED: Shows = {"Seen.Starts": 0, "Seen.Runs": 0, "Seen.Driven": False}
@@ -51,18 +50,12 @@ def stand(shows: Shows | None = None, ms: int = 4000) -> Step:
 
 # ---------------------------------------------------------------- starts
 
-_MEASURES = (
-    "OutputFrequency", "OutputCurrent", "OutputVoltage", "DcBusVoltage", "OutputPower", "OutputSpeed", "OutputTorque",
-    "RelativePower", "DriveTemperature", "MotorTemperature", "OperatingTime", "Energy",
-)  # fmt: skip
 _MORE = {
-    "output_speed": ("OutputSpeed", "Rpm", 900.0), "output_torque": ("OutputTorque", "Percent", 50.0),
-    "relative_power": ("RelativePower", "Percent", 30.0), "drive_temperature": ("DriveTemperature", "DegC", 40.0),
-    "motor_temperature": ("MotorTemperature", "DegC", 50.0), "operating_time": ("OperatingTime", "H", 100.0),
-    "energy": ("Energy", "KWh", 12.0),
+    "output_speed": 900.0, "output_torque": 50.0, "relative_power": 30.0, "drive_temperature": 40.0,
+    "motor_temperature": 50.0, "operating_time": 100.0, "energy": 12.0,
 }  # fmt: skip
-"""What else a drive can show -> its member of Diagnosis, its unit, and the value at 30 Hz of the simulated motor."""
-_UNMEASURED: Shows = {f"Motor.Diagnosis.{each}Valid": False for each in _MEASURES}
+"""What else a drive can show, and its value at 30 Hz of the simulated motor."""
+_UNMEASURED: Shows = {f"Motor.Diagnosis.{each.valid}": False for each in MEASURED.values()}
 
 
 def starts(can: Ability) -> Iterator[Scene]:
@@ -122,8 +115,8 @@ def _motion(can: Ability, does: str) -> Iterator[Step]:
         "Slots[0].Ask[1].Number <> Slots[0].Answer[1].Number": True, "StopConfirmed": False,
     })  # fmt: skip
     yield Step("the start is sent", {}, f"{why('STARTING')} OR {pace}", 200, {"StopConfirmed": False})
-    sent = next(one.register for one in can.drive.operation.commands if one.does == does)
-    own = sent != can.drive.operation.reference.register
+    sent = words(can.drive).named[does].last.register
+    own = sent != reference(can.drive).register
     yield Step("it ramps up", {}, f"Motor.Running AND ({pace})", 1000, {
         "Seen.Order": can.order(does), "Slots[0].Once": own, "Slots[0].Begins": own,
     })  # fmt: skip
@@ -153,21 +146,14 @@ def _measured(can: Ability, *, jog: bool) -> Shows:
     if jog:
         return {}
     found: Shows = {"OutputVoltageValid": can.measures("output_voltage")}
-    if can.measures("output_voltage"):
-        found["OutputVoltageV"] = 240.0
-    if can.measures("dc_bus_voltage"):
-        found["DcBusVoltageV"] = 540.0
-    if can.measures("output_power"):
-        found["OutputPowerKW"] = 1.2
-    for what, (name, unit, value) in _MORE.items():
-        found[f"{name}{unit}"] = value if can.measures(what) else 0.0
-        found[f"{name}Valid"] = can.measures(what)
-    for name, what in (
-        ("OutputCurrent", "output_current"),
-        ("DcBusVoltage", "dc_bus_voltage"),
-        ("OutputPower", "output_power"),
-    ):
-        found[f"{name}Valid"] = can.measures(what)
+    for what, value in (("output_voltage", 240.0), ("dc_bus_voltage", 540.0), ("output_power", 1.2)):
+        if can.measures(what):
+            found[f"{MEASURED[what].name}{MEASURED[what].unit}"] = value
+    for what, value in _MORE.items():
+        found[f"{MEASURED[what].name}{MEASURED[what].unit}"] = value if can.measures(what) else 0.0
+        found[MEASURED[what].valid] = can.measures(what)
+    for what in ("output_current", "dc_bus_voltage", "output_power"):
+        found[MEASURED[what].valid] = can.measures(what)
     return found
 
 
@@ -263,8 +249,8 @@ def stops(can: Ability) -> Iterator[Scene]:
         ("CoastStop", {"CoastStop": True}, {"CoastStop": False}, "STOP_PIN", can.kind("coast_stop")),
         ("StopAll", {"Pins.StopAll": True}, {"Pins.StopAll": False}, "STOP_ALL", 1),
     )
-    for words, sets, frees, reason, kind in rows:
-        yield scene(words, POWER, run(), *_stopped(sets, frees, reason, kind))
+    for name, sets, frees, reason, kind in rows:
+        yield scene(name, POWER, run(), *_stopped(sets, frees, reason, kind))
     yield scene("a stop is as quick as it says", POWER, run(), *_quick())
     yield scene("the run pin falls", POWER, run(), *_released())
     yield scene("a stop grows stronger", POWER, run(), *_stronger(can))
@@ -658,10 +644,8 @@ def _not_followed() -> Iterator[Step]:
 
 
 def _unacknowledged(can: Ability, what: str, reason: str) -> Iterator[Step]:
-    operation = can.drive.operation
-    forward = next(one for one in operation.commands if one.does == "run_forward")
-    register = operation.reference.register if what == "reference" else forward.register
-    if register == operation.reference.register and what == "run":
+    register = reference(can.drive).register if what == "reference" else can.run.last.register
+    if register == reference(can.drive).register and what == "run":
         return
     lost: Shows = {"Fate.Skips": True, "Fate.Skipped": word(mark(register)), "RunForward": True}
     yield Step("its write is lost", lost, why(reason), 6000, {"Seen.Starts": 0, "Running": False})
@@ -671,9 +655,7 @@ def _unacknowledged(can: Ability, what: str, reason: str) -> Iterator[Step]:
 
 def _unsaid(can: Ability) -> Iterator[Step]:
     """The status is read before a run is written again: it runs, so it is acknowledged."""
-    forward = next(one for one in can.drive.operation.commands if one.does == "run_forward")
-    register = forward.register
-    lost: Shows = {"Fate.Unsaid": True, "Fate.Skipped": word(mark(register)), "RunForward": True}
+    lost: Shows = {"Fate.Unsaid": True, "Fate.Skipped": word(mark(can.run.last.register)), "RunForward": True}
     yield Step("it runs, and nobody says so", lost, "Motor.AtSpeed", 4000, {
         "Seen.Starts": 1, "Seen.Runs": 1, "Running": True,
     })  # fmt: skip
@@ -682,7 +664,7 @@ def _unsaid(can: Ability) -> Iterator[Step]:
 
 def _tries(can: Ability) -> Iterator[Step]:
     """One attempt and three more, with a look at the status before each."""
-    register = next(one.register for one in can.drive.operation.commands if one.does == "run_forward")
+    register = can.run.last.register
     lost: Shows = {"Fate.Unsaid": True, "Fate.Skipped": word(mark(register)), "Fate.Local": True, "RunForward": True}
     before: Shows = {".Mark": "Seen.Writes - Seen.References"}
     yield Step("four times unanswered", lost | before, why("NO_RUN"), 6000, {
@@ -762,7 +744,7 @@ def modes(can: Ability) -> Iterator[Scene]:
     yield scene("the drive's watchdog", POWER, run(), *_heartbeat(can))
     if second_hand(can.drive):
         yield scene("a map that nobody has checked", *_unchecked())
-    if can.drive.operation.reference.verify:
+    if status(can.drive).verify:
         yield scene("a setting that gives the reference another meaning", POWER, run(), *_wrong_setting())
     yield scene("nothing set: the usual values", *_unset())
 
@@ -786,7 +768,7 @@ def _speed_only(can: Ability) -> Iterator[Step]:
     yield Step(
         "a run pin starts nothing", {"RunForward": True}, ms=500, shows=NOTHING_STARTED | {"Reason": "SPEED_ONLY"}
     )
-    register = can.drive.operation.reference.register
+    register = reference(can.drive).register
     lost: Shows = {"Fate.Skips": True, "Fate.Skipped": word(mark(register)), "SpeedReferenceHz": 26.0}
     yield Step("a reference is lost", lost, why("NO_REFERENCE"), 3000, {"Error": True, "ErrorID": 20})
     yield Step("it is sent again", {"Fate.Skips": False}, why("SPEED_ONLY"), 2000, NOTHING_STARTED)
@@ -815,12 +797,11 @@ def _speed_only(can: Ability) -> Iterator[Step]:
 
 def _calm(can: Ability) -> Iterator[Step]:
     """After a stop pin the reference stays 0 for half a second; a pair whose last word is 0 does not show it."""
-    row = can.drive.register_at(can.drive.operation.reference.register, "w")
-    if row is not None and row.order == "low_first":
+    if reference(can.drive).pair == "low_first":
         return
     speeds: Shows = {"SpeedOnly": True, "SpeedReferenceHz": 25.0}
     yield Step("the reference is sent", speeds, f"({why('SPEED_ONLY')}) AND (Seen.References > 0)", 2000)
-    register = word(whole(can.drive, can.drive.operation.reference.register)[-1])
+    register = word(reference(can.drive).registers[-1])
     given = f"(Seen.LastRegister = {register}) AND (Seen.LastWord <> WORD#16#0000)"
     for _ in range(2):
         yield Step("Enable falls", {"Enable": False}, ms=100, shows={"Motor.Diagnosis.State": 6})

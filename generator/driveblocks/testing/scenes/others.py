@@ -3,10 +3,11 @@
 from collections.abc import Iterator
 
 from driveblocks.maps.model import Drive
+from driveblocks.maps.plan import busy
 from driveblocks.meaning.serial import serial
 from driveblocks.reference.framing import ascii_encode, rtu_seal
 from driveblocks.testing.scenes.ability import Ability
-from driveblocks.testing.scenes.drive import busy, simulated
+from driveblocks.testing.scenes.drive import simulated
 from driveblocks.testing.scenes.motor import NOTHING_STARTED, RUNNING, STANDS, run
 from driveblocks.testing.scenes.scene import More, Scene, Shows, Step, scene, script, why
 from driveblocks.testing.script import SCAN_MS, Script
@@ -196,7 +197,7 @@ def _late_other(can: Ability) -> Iterator[Step]:
     """They come when the other drive has been asked already, and are nobody's but its own."""
     other: Shows = {"Pins.OtherOn": True, "Pins.OtherUnit": serial(can.drive).lowest + 1}
     yield Step("two drives", other, "Other.Ready", 4000, {"Bus.ForeignFrames": 0})
-    late = 80 if can.drive.serial.silence else 60  # a silence of the drive's own lengthens what is in time
+    late = 80 if serial(can.drive).silence else 60  # a silence of the drive's own lengthens what is in time
     yield Step(
         "one is later than it may be",
         {"OtherFate.HoldMs": late},

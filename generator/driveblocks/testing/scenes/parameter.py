@@ -4,7 +4,9 @@ from collections.abc import Iterator
 
 from driveblocks.maps.model import Drive
 from driveblocks.meaning.measure import own_maximum
+from driveblocks.meaning.reference import reference
 from driveblocks.meaning.status import registers, status
+from driveblocks.meaning.words import words
 from driveblocks.reference.permission import Judge, Write, readable, writable
 from driveblocks.testing.code import NUMBERS
 from driveblocks.testing.scenes.ability import Ability
@@ -133,12 +135,10 @@ def error(block: str, name: str) -> Shows:
 
 
 def _barred(can: Ability) -> Iterator[Step]:
-    operation = can.drive.operation
     listed = readable(can.drive) | writable(can.drive)
     free = next(each for each in range(0xFFFF, 0, -1) if each not in listed)
-    command = next(one.register for one in operation.commands if one.does == "stop")
     untouched: Shows = {"Seen.Others": 0, "Seen.Starts": 0}
-    for place in dict.fromkeys((command, operation.reference.register)):
+    for place in dict.fromkeys((words(can.drive).stop.last.register, reference(can.drive).register)):
         owned = error("Writer", "OWNED") | untouched
         yield from does("Writer", place, "Error", owned, Given=word(1), Unknown=True)
     yield from does("Writer", free, "Error", error("Writer", "UNKNOWN_ADDRESS") | untouched, Given=word(1))

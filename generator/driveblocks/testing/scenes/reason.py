@@ -2,7 +2,7 @@
 
 from driveblocks.maps.trust import second_hand
 from driveblocks.meaning.status import status
-from driveblocks.simulator.move import MOTIONS
+from driveblocks.meaning.words import MOTIONS
 from driveblocks.testing.scenes.ability import Ability
 
 REASONS = {

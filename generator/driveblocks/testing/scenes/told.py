@@ -4,11 +4,14 @@ from collections.abc import Iterator, Mapping
 
 from driveblocks.maps.form import is_bit
 from driveblocks.maps.model import Command, Drive
+from driveblocks.maps.plan import busy
 from driveblocks.maps.rivals import first_reads, refusals
+from driveblocks.meaning.measure import measures
+from driveblocks.meaning.reference import reference
 from driveblocks.meaning.serial import serial
 from driveblocks.reference.command import Commands
 from driveblocks.testing.scenes.ability import Ability
-from driveblocks.testing.scenes.drive import busy, mark
+from driveblocks.testing.scenes.drive import mark
 from driveblocks.testing.scenes.motor import NOTHING_STARTED, RUNNING, STANDS
 from driveblocks.testing.scenes.scene import More, Scene, Shows, Step, Value, scene, script
 from driveblocks.testing.script import Script
@@ -129,19 +132,19 @@ def _not_blank(drive: Drive) -> Iterator[Step]:
         "SinceStoreMs < 2000": True, "ResetAsked": False,
     } | _nothing_waits()))  # fmt: skip
     run = _command(drive, "run_forward")
-    reference = drive.operation.reference.register
+    speed = reference(drive).register
     yield Step("it runs as ever", {"RunForward": True, "Pins.Settings.RefreshMs": 65535}, "Motor.Running", 3000, {
         "Seen.Starts": 1, "Seen.LastRegister = " + word(mark(run.register)): True,
     })  # fmt: skip
     yield Step("what the line knows then", ms=20, shows=_slot(known(drive) | {
-        "Once": run.register != reference, "Begins": run.register != reference, "ResetAsked": False,
+        "Once": run.register != speed, "Begins": run.register != speed, "ResetAsked": False,
         "Ask[1].FunctionCode": _write(drive, run.register), "Ask[1].Quantity": 1, "Ask[1].Address": word(run.register),
         "StopConfirmed": False, "ProvedStill": False,
         "EndsByAnswer": False,
     } | _nothing_waits()))  # fmt: skip
     yield Step("up to its speed", {}, "Motor.AtSpeed", 3000, RUNNING | {"Seen.Starts": 1})
     yield Step("another speed", {"SpeedReferenceHz": 35.0}, "ABS(Seen.Milli - 35000) <= 200", 2000, _slot({
-        "Once": False, "Begins": False, "Ask[1].Address": word(reference),
+        "Once": False, "Begins": False, "Ask[1].Address": word(speed),
     }))  # fmt: skip
     stop = _command(drive, "stop")
     yield Step("and stops", {"RunForward": False}, "Motor.StopConfirmed", 3000, STANDS | {
@@ -175,7 +178,7 @@ def _diagnosis(can: Ability) -> Shows:
     found |= {f"Slots[0].{name} = Bus.{name}": True for name in ("StopAloneMs", "WorstStopMs")}
     found |= {"Motor.Diagnosis.StatusAgeMs": (0, 400), "Motor.Diagnosis.State": 1}
     found["(Motor.Diagnosis.StopKind = 1) OR (Motor.Diagnosis.StopKind = 4)"] = True
-    if can.drive.operation.measures and can.turns == 1:
+    if measures(can.drive) and can.turns == 1:
         found["Motor.Diagnosis.MeasuresAgeMs"] = (0, 600)
     return found
 

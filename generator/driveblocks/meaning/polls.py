@@ -1,12 +1,15 @@
 """The reads that keep the pins of a drive block fresh: which words, in which transactions, in which order."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 
 from driveblocks.maps.form import Span, address_text, is_bit
 from driveblocks.maps.model import Drive, kept
 from driveblocks.maps.pair import whole
 from driveblocks.maps.plan import most, plan, reads_by
+from driveblocks.meaning.measure import measures, own_maximum
+from driveblocks.meaning.quantity import quantity
+from driveblocks.meaning.status import registers, status
 from driveblocks.modbus.layout import bytes_of
 
 MOST_POLLS = 12
@@ -63,12 +66,10 @@ class Poll:
 
 def fast_words(drive: Drive) -> frozenset[int]:
     """What must be fresh: registers of status, standstill, states and who commands, and the output frequency."""
-    operation = drive.operation
-    conditions = [*operation.standstill.all, *(each for status in operation.status for each in status.any)]
-    conditions += operation.commanded_by.all if operation.commanded_by else ()
-    measured = (each.register for each in operation.measures if each.shows == "output_frequency")
-    words = [*(each.register for each in conditions), *(state.register for state in operation.states), *measured]
-    return frozenset(each for word in words for each in whole(drive, word))
+    shows = status(drive)
+    shown = (each for one in (*shows.shown, shows.standstill, shows.by_bus) for each in one.patterns)
+    words = registers((*shown, *(one.pattern for one in shows.states)))
+    return _whole(drive, (*words, *_frequency(drive)))
 
 
 def slow_words(drive: Drive) -> frozenset[int]:
@@ -76,25 +77,21 @@ def slow_words(drive: Drive) -> frozenset[int]:
 
     The drive's own maximum frequency is of that kind, too.
     """
-    operation = drive.operation
-    words = {each.register for each in operation.measures} | meaning_words(drive)
-    rows = map(drive.register_at, words)
-    meaning = [each for row in rows if row and row.scale for each in row.scale.conditions]
-    words |= {each.register for each in meaning}
-    words |= fault_words(drive)
-    words.update(drive.warned)
-    return frozenset(each for word in words for each in whole(drive, word)) - fast_words(drive)
+    own = own_maximum(drive)
+    scaled = (each.when for one in (*measures(drive), own) if one for each in quantity(drive, one.register).factors)
+    words = (*registers(filter(None, scaled)), *(each.register for each in measures(drive)), *meaning_words(drive))
+    return _whole(drive, (*words, *fault_words(drive), *drive.warned)) - fast_words(drive)
 
 
 def young_words(drive: Drive) -> frozenset[int]:
     """What is shown while it is young: measures, what alone says their scale, and the code of a warning."""
-    measured = [one.register for one in drive.operation.measures]
-    rows = map(drive.register_at, measured)
-    meaning = {each.register for row in rows if row and row.scale for each in row.scale.conditions}
-    return frozenset({*measured, *drive.warned, *meaning - meaning_words(drive)})
+    measured = [one.register for one in measures(drive)]
+    scaled = (each.when for one in measured for each in quantity(drive, one).factors)
+    return frozenset({*measured, *drive.warned, *{*registers(filter(None, scaled))} - meaning_words(drive)})
 
 
 def fault_words(drive: Drive) -> frozenset[int]:
+    """What says which fault is present."""
     faults = drive.faults
     if faults.present is not None:
         return frozenset({faults.present})
@@ -103,15 +100,22 @@ def fault_words(drive: Drive) -> frozenset[int]:
 
 def speed_words(drive: Drive) -> frozenset[int]:
     """The output frequency where it is among what proves standstill; else all of the proof."""
-    proof = frozenset(each.register for each in drive.operation.standstill.all)
-    return proof & {each.register for each in drive.operation.measures if each.shows == "output_frequency"} or proof
+    proof = frozenset(registers(status(drive).standstill.patterns))
+    return proof.intersection(_frequency(drive)) or proof
 
 
 def meaning_words(drive: Drive) -> frozenset[int]:
     """What gives the reference its meaning: settings that the map asks for, and the drive's own maximum frequency."""
-    operation = drive.operation
-    own = (operation.own_maximum.register,) if operation.own_maximum else ()
-    words = [*own, *(each.register for each in operation.reference.verify)]
+    own = own_maximum(drive)
+    return _whole(drive, (*registers(status(drive).verify), *([own.register] if own else ())))
+
+
+def _frequency(drive: Drive) -> Iterator[int]:
+    return (each.register for each in measures(drive) if each.name == "output_frequency")
+
+
+def _whole(drive: Drive, words: Iterable[int]) -> frozenset[int]:
+    """All registers of the values of which these are some."""
     return frozenset(each for word in words for each in whole(drive, word))
 
 

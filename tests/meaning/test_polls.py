@@ -10,7 +10,7 @@ from tests.shipped import drives
 
 from driveblocks.maps.form import Span
 from driveblocks.maps.model import Condition, Drive, Measured, Register, Scale
-from driveblocks.maps.polls import MOST_POLLS, Poll, polls, schedule, wire_ms
+from driveblocks.meaning.polls import MOST_POLLS, Poll, polls, schedule, wire_ms
 
 SHIPPED = drives()
 

@@ -2,9 +2,13 @@
 
 from collections.abc import Iterator
 
-from driveblocks.maps import plan
-from driveblocks.maps.form import address_text, bits_text, masked_text
-from driveblocks.maps.model import Condition, Drive, Reaction, Setting, State, Watchdog
+from driveblocks.maps.form import address_text, bits_text
+from driveblocks.maps.model import Drive
+from driveblocks.meaning import measure
+from driveblocks.meaning.serial import serial
+from driveblocks.meaning.setting import Setting, setting
+from driveblocks.meaning.status import status
+from driveblocks.meaning.watchdog import Watchdog, watchdog
 
 UNKNOWN = "the manual does not say"
 _DOES = {
@@ -22,46 +26,44 @@ _TRIPS = {
 
 def silent_line(drive: Drive) -> str:
     """What the motor does when the cable is cut."""
-    watchdog = drive.watchdog
-    return UNKNOWN + ": count on a motor that runs on" if watchdog is None else "; ".join(_watchdog(drive, watchdog))
+    own = watchdog(drive)
+    return UNKNOWN + ": count on a motor that runs on" if own is None else "; ".join(_watchdog(drive, own))
 
 
-def _watchdog(drive: Drive, watchdog: Watchdog) -> Iterator[str]:
-    settings = {setting.id: setting for setting in drive.settings}
-    chosen = settings.get(watchdog.chosen_by or "")
-    does = ", ".join(_reaction(one, chosen) for one in watchdog.reactions)
+def _watchdog(drive: Drive, own: Watchdog) -> Iterator[str]:
+    chosen = setting(drive, own.chosen_by)
+    does = ", ".join(_reaction(*each, chosen) for each in own.reactions)
     yield f"{chosen.id} = {does}" if chosen else does
-    if watchdog.disabled_by is not None:
-        yield f"{watchdog.disabled_by.setting} = {watchdog.disabled_by.value}: the motor runs on, whatever else is set"
-    time, feeds = watchdog.time, watchdog.feeds
-    open_ = [*(["after how long"] if time is None else []), *(["what feeds the watchdog"] if feeds is None else [])]
+    if own.off is not None:
+        yield f"{own.off[0]} = {own.off[1]}: the motor runs on, whatever else is set"
+    time, fed = own.time, own.feeds
+    open_ = [*(["after how long"] if time is None else []), *(["what feeds the watchdog"] if fed is None else [])]
     if time is not None:
         where = time.setting if time.setting is not None else address_text(time.register or 0)
-        yield f"after {where} x {time.milliseconds} ms"
-    if feeds is not None:
-        yield f"fed by {_FEEDS[feeds]}"
+        yield f"after {where} x {time.count_ms} ms"
+    if fed is not None:
+        yield f"fed by {_FEEDS[fed]}"
     if open_:
         yield f"{UNKNOWN} {' nor '.join(open_)}"
-    if watchdog.note is not None:
-        yield watchdog.note
+    if own.note is not None:
+        yield own.note
 
 
-def _reaction(one: Reaction, chosen: Setting | None) -> str:
+def _reaction(value: int | None, does: str, chosen: Setting | None) -> str:
     if chosen is None:
-        return _DOES[one.does]
-    named = next((f" {value.name.lower()}" for value in chosen.values if value.value == one.value), "")
-    factory = " (factory)" if chosen.default == str(one.value) else ""
-    return f"{one.value}{named}{factory}: {_DOES[one.does]}"
+        return _DOES[does]
+    factory = " (factory)" if chosen.default == str(value) else ""
+    return f"{value} {chosen.named(value).lower()}".strip() + f"{factory}: {_DOES[does]}"
 
 
 def reply_delay(drive: Drive) -> str | None:
     """What lets the drive answer later, and how much; None where nothing is known to."""
-    delay, (factory, longest) = drive.serial.reply_delay, plan.reply_delay(drive)
+    delay = serial(drive).delay
     if delay is None:
         return None
-    said = [f"{factory} ms as delivered"] if factory is not None else []
-    said += [f"{longest} ms at most"] if longest is not None else []
-    return f"by {delay.setting}, " + (", ".join(said) or f"{delay.milliseconds} ms for each count")
+    said = [f"{delay.factory_ms} ms as delivered"] if delay.factory_ms is not None else []
+    said += [f"{delay.most_ms} ms at most"] if delay.most_ms is not None else []
+    return f"by {delay.setting}, " + (", ".join(said) or f"{delay.count_ms} ms for each count")
 
 
 def trip(drive: Drive) -> str:
@@ -74,23 +76,22 @@ def trip(drive: Drive) -> str:
 
 def in_command(drive: Drive) -> str:
     """How the drive shows that the bus is in command."""
-    bus = drive.operation.commanded_by
-    return UNKNOWN + " how to see it" if bus is None else f"while {' and '.join(map(condition, bus.all))}"
+    bus = status(drive).by_bus.patterns
+    return f"while {' and '.join(map(str, bus))}" if bus else UNKNOWN + " how to see it"
 
 
 def recognised(drive: Drive) -> str:
     """By what one sees that the drive is of this family."""
-    identity = drive.identity
-    return UNKNOWN + " how to see it" if identity is None else " and ".join(map(condition, identity.all))
+    return " and ".join(map(str, status(drive).identity.patterns)) or UNKNOWN + " how to see it"
 
 
 def own_maximum(drive: Drive) -> str:
     """Where the drive's own maximum frequency can be read."""
-    maximum = drive.operation.own_maximum
+    maximum = measure.own_maximum(drive)
     row = drive.register_at(maximum.register) if maximum else None
-    if maximum is None or row is None or row.scale is None:
+    if maximum is None or row is None or maximum.quantity.factor is None:
         return UNKNOWN + " where to read it, or on which scale"
-    return f"{address_text(maximum.register)}{f' ({row.id})' if row.id else ''} x {row.scale.factor} Hz"
+    return f"{address_text(maximum.register)}{f' ({row.id})' if row.id else ''} x {maximum.quantity.factor} Hz"
 
 
 def silenced(drive: Drive) -> str | None:
@@ -109,12 +110,3 @@ def nevers(drive: Drive) -> Iterator[str]:
         for one in row.never:
             bits = f"bit{'s' * (len(one.bit) > 1)} {bits_text(one.bit)}"
             yield f"{address_text(row.address.first)} {bits} = {one.equals}: {one.why}"
-
-
-def condition(one: Condition | State) -> str:
-    """A condition or state in words: `000FH bit 0 = 0`."""
-    is_ = "<>" if isinstance(one, Condition) and one.differs else "="
-    if one.mask is not None:
-        return masked_text(one.register, one.mask, one.equals, is_)
-    bit = f" bit {bits_text(one.bit)}" if isinstance(one, Condition) and one.bit is not None else ""
-    return f"{address_text(one.register)}{bit} {is_} {one.equals}"
