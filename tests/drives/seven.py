@@ -18,6 +18,7 @@ from tests.simulator.bench import DriveBench
 from driveblocks.maps.form import is_bit, wire
 from driveblocks.maps.model import Drive
 from driveblocks.maps.polls import polls
+from driveblocks.maps.revision import checked
 from driveblocks.simulator.drive import SimulatedDrive
 from structured_text.engines.embedded.engine import EmbeddedEngine
 from structured_text.engines.engine import Source
@@ -35,15 +36,15 @@ SETTINGS = "Enable := TRUE, SpeedReferenceHz := 25.0, MaximumHz := 50.0, FullSca
 
 def station(prefix: str, count: int = COUNT) -> Source:
     """A program with a line and this many drives, as a block."""
-    drives = range(count)
+    places, number = range(count), checked(drives()[prefix])
     calls = "".join(
         f"  Drive{at}(RunForward := Run{at}, {SETTINGS}, Settings := Setting,"
-        f" Address := {at + 1}, Slot := Slots[{at}]);\n"
-        for at in drives
+        f" Address := {at + 1}, ManualChecked := {number}, Slot := Slots[{at}]);\n"
+        for at in places
     )
     pins = ", ".join(f"{name} := {name}" for name in (pin.partition(" ")[0] for pin in PINS))
-    inputs = "".join(f"  {pin};\n" for pin in (*PINS, *(f"Run{at} : BOOL" for at in drives)))
-    blocks = "".join(f"  Drive{at} : {prefix}_Drive;\n" for at in drives)
+    inputs = "".join(f"  {pin};\n" for pin in (*PINS, *(f"Run{at} : BOOL" for at in places)))
+    blocks = "".join(f"  Drive{at} : {prefix}_Drive;\n" for at in places)
     return Source(
         "seven.st",
         f"FUNCTION_BLOCK Seven\nVAR_INPUT\n{inputs}END_VAR\nVAR\n  Port : MB_Port;\n  Slots : MB_Slots8;\n"

@@ -24,7 +24,9 @@ from tests.second.frames import rtu
 from tests.second.kinds import drive as model
 from tests.second.line import SETTINGS, path
 from tests.second.pf4 import VARIANTS
+from tests.shipped import drives
 
+from driveblocks.maps.revision import checked
 from structured_text.engines.matiec.installation import Installation
 
 __all__ = ["FAMILIES", "WHY_NOT", "Crowd", "Hall", "crowd"]
@@ -210,6 +212,7 @@ def crowd() -> Crowd:
 def default_pins(family: str, address: int) -> dict[str, float]:
     """Pins of a drive block that can start its second model, by their places in the block."""
     pins = SETTINGS | {"Address": address, "StopWithinMs": 20_000}
+    pins["ManualChecked"] = checked(drives()[family])
     return {path(0, name).partition(".")[2]: float(value) for name, value in pins.items()}
 
 

@@ -44,8 +44,9 @@ def test_what_is_not_said_is_the_sisters_and_no_longer_read(tmp_path: Path) -> N
     assert {one.document for one in best.operation.commands} == {"acme"}
     sister = best.documents[0]
     assert (sister.id, sister.title, sister.trust) == ("acme", "Acme 100 communication manual", "sister")
-    assert trust.rung(acme) == "read, read, read"
-    assert trust.rung(best) == "sister, sister, sister"
+    assert trust.rung(acme) == "read"
+    parts = ("commands", "reference", "status", "measures", "settings", "faults")
+    assert trust.rung(best) == ", ".join(f"{one} sister" for one in parts)
     assert best.frames[0].document == "acme"
 
 
@@ -61,7 +62,10 @@ operation:
 faults: {source: page 9}
 """,
     )
-    assert trust.rung(best) == "read, read, read"
+    assert trust.heard(best) == [
+        f"{one}, sister (Acme 100 communication manual, Acme Drives): {names}"
+        for one, names in (("reference", "scale"), ("measures", "output frequency"), ("settings", "mode"))
+    ]
     assert [one.source for one in best.sections] == ["page 7", "page 8"]
     assert best.operation.commands[2].writes[0].value == 3
     assert [code.name for code in best.faults.codes] == ["Overcurrent"]

@@ -44,34 +44,118 @@ def _drive(added: dict[str, str]) -> Drive:
 
 def test_what_names_no_document_is_read_in_the_manual() -> None:
     drive = _drive({})
-    assert trust.counted(drive) == {"commands": {"read": 6}, "status": {"read": 5}, "faults": {"read": 4}}
-    assert (trust.second_hand(drive), trust.heard(drive), trust.rung(drive)) == (False, [], "read, read, read")
+    many = {"commands": 5, "reference": 3, "status": 7, "watchdog": 2, "settings": 5, "faults": 4}
+    assert trust.counted(drive) == {part: {"read": many[part]} if part in many else {} for part in trust.PARTS}
+    assert (trust.second_hand(drive), trust.heard(drive), trust.rung(drive)) == (False, [], "read")
 
 
 def test_facts_are_counted_by_their_documents() -> None:
     drive = _drive(MIXED)
-    assert trust.counted(drive)["status"] == {"read": 4, "in_use": 1}
+    assert trust.counted(drive)["status"] == {"read": 6, "in_use": 1}
     assert trust.counted(drive)["faults"] == {"sister": 4}
-    assert (trust.second_hand(drive), trust.rung(drive)) == (True, "read, in use, sister")
+    assert (trust.second_hand(drive), trust.rung(drive)) == (True, "status in use, faults sister")
     assert trust.heard(drive)[0] == "status, in use (Driver of a milling machine, Its user): standstill"
     assert trust.heard(drive)[1] == "faults, sister (Fieldbus guide of the EX200, Example Drives): all 4"
 
 
-def test_a_status_is_trusted_no_further_than_the_table_of_its_register() -> None:
+ONE_FACT = {
+    "reference: reference": "    means: percent_of_maximum\n",
+    "reference: scale": "          source: section 9.5 (I), 000FH bit 0\n",
+    "commands: fault_reset": ', source: "section 9.5 (I), 0002H"',
+    "status: bus in command": "commanded_by: {all: [{register: 0011H, equals: 1}]",
+    "status: identity": "  source: section 9.5 (III), 0031H\n",
+    "watchdog: reactions": "  feeds: reference\n",
+    "watchdog: time": "time: {register: 0202H",
+    "settings: H5-01": "    needed: {why: the address that the PLC uses}\n",
+    "settings: bit rate": "    setting: H5-02\n",
+    "settings: format": "    setting: H5-03\n",
+}
+"""Where `document:` goes, by the only fact that it is about: on a line of its own, or in a mapping on one line."""
+
+
+def _text_of(fact: str) -> str:
+    """The example with this one from somebody's driver."""
+    where = ONE_FACT[fact]
+    whole_line = where.endswith("\n")
+    blanks = where[: len(where) - len(where.lstrip())]
+    return _text({where: f"{blanks}document: driver\n" if whole_line else ", document: driver"})
+
+
+@pytest.mark.parametrize("fact", ONE_FACT)
+def test_one_fact_of_a_motion_from_somebodys_driver_wants_the_check(fact: str) -> None:
+    """A wrong factor is a tenfold speed, a wrong watchdog a motor that nothing stops."""
+    drive, (part, name) = loads(_text_of(fact), "example.yaml"), fact.split(": ")
+    (found,) = (one for one in trust.facts(drive) if one.trust != "read")
+    assert (found.part, found.name, found.trust, found.document) == (part, name, "in_use", drive.documents[0])
+    assert _text_of(fact).splitlines()[found.place[0] - 1].count("document: driver") == 1
+    assert (trust.second_hand(drive), trust.rung(drive)) == (True, f"{part} in use")
+    assert trust.heard(drive) == [f"{part}, in use (Driver of a milling machine, Its user): {name.replace('_', ' ')}"]
+    assert checked(drive) != checked(_drive({}))
+
+
+def test_what_one_register_says_is_trusted_no_further_than_its_table() -> None:
     drive = _drive({TABLE: "    document: guide\n"})
-    assert trust.counted(drive)["status"] == {"sister": 5}
+    assert trust.counted(drive)["status"] == {"read": 1, "sister": 6}, "the identity is in another table"
     assert trust.second_hand(drive)
 
 
-def test_faults_alone_ask_nobody_to_check_the_manual() -> None:
+def test_a_row_that_says_when_a_scale_holds_is_a_fact_of_the_scale() -> None:
+    drive = _drive({"        name: Choice of units\n": "        document: driver\n"})
+    assert trust.heard(drive) == ["reference, in use (Driver of a milling machine, Its user): reference, scale"]
+
+
+def test_the_scale_of_what_is_shown_is_a_fact_of_its_measure() -> None:
+    at = '    - {shows: fault, any: [{register: 0010H, bit: 3, equals: 1}], source: "section 9.5 (II), 0010H"}\n'
+    measure = "  measures: [{shows: dc_bus_voltage, register: 0023H, source: section 9.5 (III)}]\n"
+    drive = _drive({at: measure, "        scale: {factor: 0.1": ", document: driver"})
+    assert trust.heard(drive) == ["measures, in use (Driver of a milling machine, Its user): dc bus voltage"]
+    assert (trust.second_hand(drive), trust.rung(drive)) == (True, "measures in use")
+    assert checked(drive) != checked(_drive({at: measure}))
+
+
+def test_the_maximum_and_full_scale_are_facts_of_the_reference() -> None:
+    row = ", id: E1-04, name: Maximum output frequency, zh: 最高输出频率"
+    drive = _drive({row: ", document: driver"})
+    assert trust.heard(drive) == ["reference, in use (Driver of a milling machine, Its user): maximum"]
+    speed = replace(drive.operation.reference, means="fraction_of_full_scale", maximum=None, document="driver")
+    fractions = [
+        replace(drive, operation=replace(drive.operation, reference=replace(speed, full_scale=count)))
+        for count in (0x4000, 0x2000)
+    ]
+    heard = ["reference, in use (Driver of a milling machine, Its user): reference"]
+    assert [trust.heard(one) for one in fractions] == [heard, heard]
+    assert checked(fractions[0]) != checked(fractions[1])
+
+
+@pytest.mark.parametrize(
+    ("said", "other", "is_one"),
+    [
+        ("range: {min: -10000, max: 10000}", "range: {min: -10000, max: 9000}", True),
+        ("{register: 0202H, milliseconds: 100", "{register: 0202H, milliseconds: 10", True),
+        ("reactions: [{does: coast_stop}]", "reactions: [{does: runs_on}]", True),
+        ("{code: 1, parity: even,", "{code: 1, parity: none,", True),
+        ("needed: {value: 1, why", "needed: {one_of: [0, 1], why", True),
+        ("all: [{register: 0031H, equals: 6401H}]", "all: [{register: 0031H, equals: 6402H}]", True),
+        ("note: check the braking resistor", "note: check the ramp", False),
+        ("{value: 4, name: Overrun", "{value: 8, name: Overrun", False),
+        ("max: 247, setting: H5-01", "max: 127, setting: H5-01", False),
+    ],
+)
+def test_the_number_is_of_what_a_motion_depends_on(said: str, other: str, is_one: bool) -> None:
+    assert EXAMPLE.count(said) == 1
+    assert (checked(loads(EXAMPLE.replace(said, other), "example.yaml")) != checked(_drive({}))) == is_one
+
+
+def test_what_only_a_person_needs_asks_nobody_to_check_the_manual() -> None:
     drive = _drive({FAULTS: "  document: guide\n"})
     assert (trust.second_hand(drive), len(trust.heard(drive))) == (False, 1)
+    assert checked(drive) == checked(_drive({}))
 
 
 def test_a_map_that_others_wrote_down_is_transcribed() -> None:
     drive = _drive({})
     drive = replace(drive, manual=replace(drive.manual, second_hand=True))
-    assert trust.rung(drive) == "transcribed, transcribed, transcribed"
+    assert trust.rung(drive) == ", ".join(f"{part} transcribed" for part in trust.PARTS if trust.counted(drive)[part])
     assert trust.heard(drive)[0].startswith("commands, transcribed (the manual as others wrote it down): run forward,")
 
 
@@ -79,8 +163,8 @@ def test_a_key_that_is_left_out_changes_no_number() -> None:
     """The numbers are printed on pages and typed into programs: they stay what they were without the key."""
     drive = _drive({})
     assert "document=None" in repr(drive)
-    assert (revision(drive), checked(drive)) == (2985226014, 27535)
-    assert checked(_drive(MIXED)) != 27535
+    assert (revision(drive), checked(drive)) == (2985226014, 27582)
+    assert checked(_drive(MIXED)) != checked(drive)
 
 
 def test_the_block_and_its_page_ask_for_the_check() -> None:

@@ -12,9 +12,10 @@ from tests.second.judge import VALUES, Asked, Judge
 from tests.second.kinds import drive as model
 from tests.second.line import RUNS, Bench
 from tests.second.observer import Figures, Pins
-from tests.second.station import IN_SEEN, RIVALS, SIZES, library
+from tests.second.station import IN_SEEN, RIVALS, SIZES, library, maps
 from tests.second.wire import Exchange
 
+from driveblocks.maps.revision import checked
 from driveblocks.simulator.drive import SimulatedDrive
 from structured_text.engines.engine import Library, Value
 
@@ -162,6 +163,7 @@ class Second(Bench):
         self.block["Twin.Enable"] = True
         self.block["Twin.MaximumHz"] = self.block["Twin.FullScaleHz"] = 50.0
         self.block["Twin.StopWithinMs"] = STOP_WITHIN_MS[len(self.types)]
+        self.block["Twin.ManualChecked"] = checked(self.maps[0])
         if "KeepWord" in self.pins[0] and self.types[0] == "SN300G5":
             self.block["Twin.Settings.KeepWord"] = self.pins[0]["KeepWord"]
         self.pins[0]["Shared"] = on
@@ -171,6 +173,7 @@ class Second(Bench):
         if len(self.types) != SIZES[1] or self.types[0] not in RIVALS:
             return
         pins = {"Address": address, "Enable": True, "MaximumHz": 50.0, "FullScaleHz": 50.0, "StopWithinMs": 7000}
+        pins["ManualChecked"] = checked(maps()[RIVALS[self.types[0]]])
         for name, value in pins.items():
             self.block[f"Other.{name}"] = value
         self.block["UseOther"] = self.pins[0]["Shared"] = on

@@ -13,6 +13,7 @@ from random import Random
 from tests.line.vline import opened, sealed
 from tests.second.station import IN_SEEN, PINS, maps, name_of, simulated
 
+from driveblocks.maps.revision import checked
 from driveblocks.render.reasons import REASONS
 from driveblocks.simulator.drive import SimulatedDrive
 from driveblocks.simulator.habits import Habits
@@ -148,7 +149,7 @@ class Bench:
         self.line(BitRate=self.rate, Ascii=ascii_, MaxScanMs=25)
         self.block["Port.KeepsSilence"] = True
         for index in range(len(self.types)):
-            self.put(index, Address=index + 1, **SETTINGS)
+            self.put(index, Address=index + 1, ManualChecked=checked(self.maps[index]), **SETTINGS)
         if start:
             self.restart()
 

@@ -52,10 +52,11 @@ def test_addresses_are_those_that_the_maker_prints(name: str) -> None:
 
 def test_what_the_makers_table_does_not_say_is_in_use_and_wants_a_check() -> None:
     altivar = drive("atv12")
-    assert trust.counted(altivar) == {
-        "commands": {"read": 3, "in_use": 4}, "status": {"read": 4, "in_use": 3}, "faults": {"in_use": 34},
-    }  # fmt: skip
-    in_use = {name for facts in trust.rungs(altivar).values() for name, one in facts.items() if one}
+    assert trust.rung(altivar) == (
+        "commands in use, status in use, settings transcribed, faults in use, other settings in use"
+    )
+    assert trust.counted(altivar)["commands"] == {"read": 2, "in_use": 4}
+    in_use = {one.name for one in trust.facts(altivar) if one.trust == "in_use"}
     assert in_use >= {"run_forward", "run_reverse", "stop", "quick_stop", "running", "state switched_on"}
     assert drive_block(altivar).own.second_hand
 

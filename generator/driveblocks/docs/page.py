@@ -204,6 +204,7 @@ def _swapped(drive: Drive) -> dict[str, str]:
         "full": f"required: what {speed.maximum} says" if speed.percent else "no use",
         "scale": "no use" if speed.scaled else "required",
         "pairs": "required" if speed.in_rpm else "no use",
+        "checked": "required" if first.second_hand else "no use",
         "reset": "yes" if first.has_reset else "no",
         "cannot": ", ".join(words for does, words in ABILITIES.items() if not can(drive, does)) or "nothing",
         "units": f"{line.lowest} to {line.highest}",

@@ -5,6 +5,7 @@ from dataclasses import replace
 from typing import Any
 
 from driveblocks.maps.model import Drive, Entry, Worded, kept
+from driveblocks.maps.trust import MOTION, facts
 from structured_text.language.fingerprint import fingerprint
 
 _LATER = {
@@ -28,15 +29,11 @@ def revision(drive: Drive) -> int:
 
 @kept
 def checked(drive: Drive) -> int:
-    """The number by which a user says that the manual was checked: 1 to 65535, a hash of what can move the motor.
-
-    These are the commands, the reference, status, standstill, and the scales of what is shown.
-    """
-    plain = english(drive)
-    rows = [plain.register_at(plain.operation.reference.register, "w")]
-    rows += [plain.register_at(one.register) for one in plain.operation.measures]
-    scales = [row.scale if row else None for row in rows]
-    return int(fingerprint([_facts(plain.operation), _facts(scales)]), 16) % 65535 + 1
+    """The number by which a user says that the manual was checked: 1 to 65535, a hash of what a motion depends on."""
+    said = (one.said for one in facts(english(drive)) if one.part in MOTION)
+    return (
+        int(fingerprint([_facts(one) for one in dict.fromkeys(each for some in said for each in some)]), 16) % 65535 + 1
+    )
 
 
 @kept
