@@ -501,6 +501,12 @@ def test_the_contact_of_the_hard_stop_does_what_its_page_says(engine: Engine) ->
         assert block["HardStopOk"] == closed, why
 
 
+def test_the_page_of_swapping_says_who_wants_a_number() -> None:
+    text = (FOLDER / "Swapping.md").read_text("utf-8")
+    assert "   | JSCC | no use | required | no use | no use | no |" in text
+    assert "   | MX2 | no use | no use | no use | required | yes |" in text
+
+
 def test_the_page_of_swapping_says_whose_stop_moves_a_drive_of_another_make() -> None:
     text = (FOLDER / "Swapping.md").read_text("utf-8")
     assert "| JSCC | CHF | **motion**: 1000H = 0003H, there its jog forward | by 2001H, a value that only it" in text

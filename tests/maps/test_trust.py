@@ -127,6 +127,25 @@ def test_the_maximum_and_full_scale_are_facts_of_the_reference() -> None:
     assert checked(fractions[0]) != checked(fractions[1])
 
 
+@pytest.mark.parametrize(
+    ("said", "other", "is_one"),
+    [
+        ("range: {min: -10000, max: 10000}", "range: {min: -10000, max: 9000}", True),
+        ("{register: 0202H, milliseconds: 100", "{register: 0202H, milliseconds: 10", True),
+        ("reactions: [{does: coast_stop}]", "reactions: [{does: runs_on}]", True),
+        ("{code: 1, parity: even,", "{code: 1, parity: none,", True),
+        ("needed: {value: 1, why", "needed: {one_of: [0, 1], why", True),
+        ("all: [{register: 0031H, equals: 6401H}]", "all: [{register: 0031H, equals: 6402H}]", True),
+        ("note: check the braking resistor", "note: check the ramp", False),
+        ("{value: 4, name: Overrun", "{value: 8, name: Overrun", False),
+        ("max: 247, setting: H5-01", "max: 127, setting: H5-01", False),
+    ],
+)
+def test_the_number_is_of_what_a_motion_depends_on(said: str, other: str, is_one: bool) -> None:
+    assert EXAMPLE.count(said) == 1
+    assert (checked(loads(EXAMPLE.replace(said, other), "example.yaml")) != checked(_drive({}))) == is_one
+
+
 def test_what_only_a_person_needs_asks_nobody_to_check_the_manual() -> None:
     drive = _drive({FAULTS: "  document: guide\n"})
     assert (trust.second_hand(drive), len(trust.heard(drive))) == (False, 1)

@@ -209,6 +209,7 @@ def _swapped(drive: Drive) -> dict[str, str]:
         "full": f"required: what {speed.maximum} says" if speed.percent else "no use",
         "scale": "no use" if speed.scaled else "required",
         "pairs": "required" if speed.in_rpm else "no use",
+        "checked": "required" if trust.second_hand(drive) else "no use",
         "reset": "yes" if can(drive, "fault_reset") else "no",
         "cannot": ", ".join(words for does, words in ABILITIES.items() if not can(drive, does)) or "nothing",
         "units": f"{line.lowest} to {line.highest}",

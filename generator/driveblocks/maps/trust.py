@@ -17,13 +17,12 @@ PARTS = (*MOTION, "faults", "other settings")
 
 @dataclass(frozen=True)
 class Fact:
-    """What a map says, how far it can be trusted, by which document, and where it names that."""
+    """What a map says, how far it can be trusted, by which document, None for the manual, and where it names that."""
 
     part: str
     name: str
     trust: Trust
     document: Document | None
-    """None: the manual itself."""
     place: Place
     said: tuple[Any, ...]
     """The entries that say it; of their documents the one to trust least counts."""
