@@ -1,11 +1,17 @@
 """The line of a drive: characters, and what of it is the factory's."""
 
 from dataclasses import replace
-from typing import Literal
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any, Literal
 
 import pytest
 from tests import shipped
 
+from driveblocks.desk.run import setup as run
+from driveblocks.desk.run.drives import Named
+from driveblocks.desk.simulate import setup as simulate
+from driveblocks.desk.site import asked
 from driveblocks.desk.site.hunt import ways
 from driveblocks.docs.page import _reads
 from driveblocks.maps.model import Drive, FormatChoice, FormatCode
@@ -73,6 +79,30 @@ def test_drives_that_are_delivered_alike_give_a_line_its_rate_and_characters() -
     assert delivered([alike, alike]) == (19200, character("8N2"))
     assert delivered([alike, other]) == (9600, character("8N1"))
     assert delivered([]) == (9600, character("8N1"))
+
+
+def test_the_program_of_named_drives_has_their_rate_and_characters() -> None:
+    named = [Named(Path("jscc.yaml"), delivered_as("none", 8, 2), unit) for unit in (1, 2)]
+    assert "BitRate := 19200, CharacterBits := 11," in asked._text(asked.Words(line=("jscc@1",)), named, 0)
+
+
+def test_a_run_speaks_as_the_drives_of_its_program_are_delivered(monkeypatch: pytest.MonkeyPatch) -> None:
+    named = [Named(Path("jscc.yaml"), delivered_as("none", 8, 2), 1)]
+    monkeypatch.setattr(run, "of_program", lambda *_: named)
+    bits = {"CharacterBits": 11}
+    made: Any = SimpleNamespace(_options=SimpleNamespace(form=None), _line=bits.get, probe=None, _maps=())
+    assert run.Setup._form(made) == "8N2"
+    made._line = {"CharacterBits": 10, "Ascii": 1}.get
+    assert run.Setup._form(made) == "7E1"
+    monkeypatch.setattr(run, "of_program", lambda *_: [])
+    made._line = {"CharacterBits": 11, "Ascii": 0}.get
+    assert run.Setup._form(made) == "8E1"
+
+
+def test_simulated_drives_speak_as_they_are_delivered_unless_a_person_says_otherwise() -> None:
+    assert simulate.Setup(simulate.Words(drives=("jscc",)))._its.form == serial(JSCC).character.form == "8E1"
+    assert simulate.Setup(simulate.Words(drives=("jscc", "chf")))._its.form == "8N1"
+    assert simulate.Setup(simulate.Words(drives=("jscc",), form="7n2"))._its.bits == 10
 
 
 def test_a_manual_that_names_rates_and_not_the_factory_s_is_not_said_to() -> None:

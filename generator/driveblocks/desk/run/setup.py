@@ -105,10 +105,10 @@ class Setup:
             if len(form) != 3 or form[0] not in "78" or form[1] not in "NEO" or form[2] not in "12":
                 raise Refused(f"--format {self._options.form} is no format; write 8N1, 8E1, 8O1, 8N2 or 7E1")
             return form
-        bits = self._line("CharacterBits")
+        bits, is_ascii = self._line("CharacterBits"), self._line("Ascii")
         _, its = delivered(each.drive for each in of_program(self.probe, self._maps))
-        found = {(10, 0): "8N1", (11, 0): "8E1", (10, 1): "7E1"}.get((bits, self._line("Ascii")))
-        if its.bits == bits:
+        found = {(10, 0): "8N1", (11, 0): "8E1", (10, 1): "7E1"}.get((bits, is_ascii))
+        if its.bits == bits and (its.data == 7) == bool(is_ascii):
             return its.form
         if found is None:
             raise Refused(f"CharacterBits = {bits} of {self.probe.wiring.line} leaves no format; write --format")
