@@ -140,16 +140,16 @@ def drive(stem: str, drive: Drive, languages: list[Language]) -> Iterator[File]:
 def _blocks(drive: Drive) -> Iterator[tuple[str, Mapping[str, object]]]:
     """The template of each block, and what it is to print."""
     allowed = plan(drive)
-    yield "CanAccess", vars(context.access(drive, "r", holding(allowed.readable)))
-    yield "CanAccess", vars(context.access(drive, "w", holding(allowed.writable)))
+    yield "CanAccess", context.access(drive, "r", holding(allowed.readable))
+    yield "CanAccess", context.access(drive, "w", holding(allowed.writable))
     yield "MayWrite", vars(parameter.may_write(drive, allowed))
     numbers = parameter.addresses(drive)
     if numbers is not None:
         yield type(numbers).__name__, vars(numbers)
-    yield "Request", vars(context.request(drive, allowed))
-    yield "Reply", vars(context.reply(drive))
+    yield "Request", context.request(drive, allowed)
+    yield "Reply", context.reply(drive)
     if drive.operation.in_one_word:
-        yield "Command", vars(context.command(drive))
+        yield "Command", context.command(drive)
     yield "Reference", context.referred(drive)
     yield "Standstill", vars(context.standstill(drive))
     bits = context.fault_number(drive)
@@ -160,7 +160,7 @@ def _blocks(drive: Drive) -> Iterator[tuple[str, Mapping[str, object]]]:
     block = {**drive_block(drive).values, "parameter": parameter.passing(drive, allowed)}
     for part in (*(["Identity"] if first_reads(drive) else []), "Reads", "Orders", "ParameterGate", "Drive"):
         yield part, block
-    yield "Version", vars(context.version(drive))
+    yield "Version", context.version(drive)
 
 
 def texts_of(languages: list[Language]) -> dict[str, str]:
