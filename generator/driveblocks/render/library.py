@@ -87,15 +87,15 @@ def generic(languages: list[Language]) -> Iterator[File]:
                 rendered = render(f"modbus/{packer.lower()}{bits}.st.j2", **values)
                 yield File("modbus", f"MB_{packer}{box}{bits}", rendered, FRAMES)
     for language in languages:
-        yield _text_file("modbus", vars(text.result_texts(language)), language)
+        yield _text_file("modbus", text.result_texts(language), language)
     yield from _line_blocks(languages)
     yield from _named("types", "types", DRIVE_TYPES, **texts_of(languages))
     yield from _named("vfd", "control", CONTROL_BLOCKS, **texts_of(languages))
     yield from _named("vfd", "control", PARAMETER_BLOCKS, PARAMETERS, least=LEAST_S, **texts_of(languages))
     yield from _named("device", "device", DEVICE, METER, **texts_of(languages))
     for language in languages:
-        yield _text_file("vfd", vars(text.reason_texts(language)), language)
-        yield _text_file("vfd", vars(text.state_texts(language)), language)
+        yield _text_file("vfd", text.reason_texts(language), language)
+        yield _text_file("vfd", text.state_texts(language), language)
 
 
 def _named(folder: str, room: str, names: Iterable[str], extra: str = "", **values: object) -> Iterator[File]:
@@ -172,13 +172,13 @@ def texts_of(languages: list[Language]) -> dict[str, str]:
 def _texts(drive: Drive, language: Language) -> Iterator[Mapping[str, object]]:
     """What each text function of a drive is to print, in a language."""
     if text.exists(drive, "Fault", language):
-        yield vars(text.fault_texts(drive, language))
+        yield text.fault_texts(drive, language)
     warnings = text.warning_texts(drive, language)
     if warnings is not None and text.exists(drive, "Warning", language):
-        yield vars(warnings)
+        yield warnings
     if text.exists(drive, "Error", language):
-        yield vars(text.error_texts(drive, language))
-    yield from map(vars, text.place_texts(drive, language))
+        yield text.error_texts(drive, language)
+    yield from text.place_texts(drive, language)
 
 
 def _text_file(folder: str, values: Mapping[str, object], language: Language) -> File:
