@@ -369,7 +369,7 @@ def _matters(notice: Notice) -> bool:
 
 def _open(drive: Drive, one: Absence) -> bool:
     """Whether a gap of the manual is about the line, commands, reference, a scale that a pin needs, or conduct."""
-    told = {each.register for each in words(drive).registers} | {reference(drive).register}
+    told = {each.last.register for each in words(drive).commands} | {reference(drive).register}
     told |= {each.register for each in measures(drive) if not quantity(drive, each.register).factors}
     about = {"serial", "operation", *CONDUCT, *(f"register {address_text(word)}" for word in told)}
     about |= {f"setting {each.id}" for each in settings(drive)}
@@ -387,7 +387,7 @@ def _errata(drive: Drive) -> Iterator[dict[str, str]]:
 
 def _bears(drive: Drive, one: Erratum) -> bool:
     """Whether a misprint is about a word that the block reads or writes, or about a keypad setting."""
-    told = {each.register for each in words(drive).registers} | {each.register for each in measures(drive)}
+    told = {each.last.register for each in words(drive).commands} | {each.register for each in measures(drive)}
     told.add(reference(drive).register)
     about = {f"register {address_text(word)}" for word in told} | {f"setting {each.id}" for each in settings(drive)}
     return not about.isdisjoint(one.about)
