@@ -5,9 +5,10 @@ from tests.desk.run.desk import EXAMPLE, ONE, Desk
 from tests.maps import bad
 from tests.simulator.talk import MAPS
 
-from driveblocks.desk.run.guard import STOPS, Guard, stop_request, stops
+from driveblocks.desk.run.guard import Guard, stop_request, stops
 from driveblocks.maps import load
 from driveblocks.maps.model import Drive
+from driveblocks.meaning.words import STOPS
 from driveblocks.modbus.frame import seal
 from driveblocks.simulator.drive import SimulatedDrive
 
