@@ -35,7 +35,7 @@ class Refusing(SimulatedDrive):
 
     def __init__(self, kind: str) -> None:
         super().__init__(maps()[kind], 1, Habits())
-        self.form = context.reply(maps()[kind]).form
+        self.form = context.refusal(maps()[kind])
 
     def reply(self, request: bytes) -> bytes | None:
         if not (self.refuses and request[1] in WRITES):

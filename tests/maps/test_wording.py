@@ -82,6 +82,6 @@ def test_a_misprint_of_an_english_manual_is_beside_the_name() -> None:
 def test_a_second_language_is_asked_for_where_it_exists() -> None:
     drive = mapped("name: Overcurrent", "name: Overcurrent, zh: 过流")
     assert chinese(drive) == {"ACME_FaultTextZh"}
-    assert "'$4F$43$20$E8$BF$87$E6$B5$81'" in [row.text for row in text.fault_texts(drive, BOTH[1]).rows]
+    assert "'$4F$43$20$E8$BF$87$E6$B5$81'" in str(text.fault_texts(drive, BOTH[1])["rows"])
     assert chinese(mapped("{value: 3, name: Stop,", "{value: 3, name: Stop, zh: 停机,")) == {"ACME_ValueTextZh"}
     assert chinese(mapped("{en: Acme Drives}", "{en: Acme Drives, zh: 顶点}")) == set()

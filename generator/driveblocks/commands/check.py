@@ -67,16 +67,10 @@ def _held(drive: "Drive") -> str:
     held = counts.of_drive(drive)
     total = held.total
     kinds = {
-        "registers": total.registers,
-        "bits": total.bits,
-        "enum values": total.enum_values,
-        "settings": held.settings,
-        "faults": held.faults,
-        "errors": held.errors,
-        "frames": held.frames,
-        "errata": held.errata,
+        "registers": total.registers, "bits": total.bits, "enum values": total.enum_values, "settings": held.settings,
+        "faults": held.faults, "errors": held.errors, "frames": held.frames, "errata": held.errata,
         "absent": held.absent,
-    }
+    }  # fmt: skip
     return ", ".join(f"{number} {kind.removesuffix('s') if number == 1 else kind}" for kind, number in kinds.items())
 
 

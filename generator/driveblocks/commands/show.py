@@ -65,16 +65,10 @@ def _topic(topic: str) -> "Callable[[Drive], Iterator[RenderableType]]":
     from driveblocks.show import errata, faults, frames, line, registers
 
     pages: dict[str, Any] = {
-        "registers": registers.tables,
-        "faults": faults.faults,
-        "errors": faults.errors,
-        "frames": frames.frames,
-        "errata": errata.errata,
-        "absent": errata.absences,
-        "serial": line.serial,
-        "settings": line.settings,
+        "registers": registers.tables, "faults": faults.faults, "errors": faults.errors, "frames": frames.frames,
+        "errata": errata.errata, "absent": errata.absences, "serial": line.serial, "settings": line.settings,
         "notices": errata.notices,
-    }
+    }  # fmt: skip
     return pages[topic]  # type: ignore[no-any-return]
 
 

@@ -203,15 +203,15 @@ def _wires(drive: Drive) -> dict[str, str]:
 
 def _swapped(drive: Drive) -> dict[str, str]:
     """What a block of this family wants otherwise than that of another."""
-    line, speed = serial(drive), reference(drive)
+    line, speed, able = serial(drive), reference(drive), words(drive).named
     return {
         "prefix": drive.prefix,
         "full": f"required: what {speed.maximum} says" if speed.percent else "no use",
         "scale": "no use" if speed.scaled else "required",
         "pairs": "required" if speed.in_rpm else "no use",
         "checked": "required" if trust.second_hand(drive) else "no use",
-        "reset": "yes" if can(drive, "fault_reset") else "no",
-        "cannot": ", ".join(words for does, words in ABILITIES.items() if not can(drive, does)) or "nothing",
+        "reset": "yes" if "fault_reset" in able else "no",
+        "cannot": ", ".join(said for does, said in ABILITIES.items() if does not in able) or "nothing",
         "units": f"{line.lowest} to {line.highest}",
     }
 
@@ -278,7 +278,7 @@ def _page(drive: Drive, checked: Checked, values: Mapping[str, Any], own: Own, p
         platforms=[(one, PLATFORMS[one].title, PLATFORMS[one].drawn) for one in platforms],
         first=[each.what for each in open_ if "serial" in each.about or any("setting" in one for one in each.about)],
         errata=list(_errata(drive)),
-        cannot=[words for does, words in ABILITIES.items() if not can(drive, does)],
+        cannot=[said for does, said in ABILITIES.items() if does not in words(drive).named],
         hides=[pin.name for pin in values["outputs"] if pin.idle],
         settings=settings(drive),
         run_sources=[each for each in settings(drive) if each.needed and each.needed.by_terminals is not None],
@@ -311,10 +311,6 @@ def _page(drive: Drive, checked: Checked, values: Mapping[str, Any], own: Own, p
 
 
 # ---------------------------------------------------------------- what a family can
-
-
-def can(drive: Drive, does: str) -> bool:
-    return does in words(drive).named
 
 
 def _reported(drive: Drive) -> list[str]:
@@ -370,7 +366,7 @@ def _matters(notice: Notice) -> bool:
 
 def _open(drive: Drive, one: Absence) -> bool:
     """Whether a gap of the manual is about the line, commands, reference, a scale that a pin needs, or conduct."""
-    told = {each.register for each in words(drive).registers} | {reference(drive).register}
+    told = {each.last.register for each in words(drive).commands} | {reference(drive).register}
     told |= {each.register for each in measures(drive) if not quantity(drive, each.register).factors}
     about = {"serial", "operation", *CONDUCT, *(f"register {address_text(word)}" for word in told)}
     about |= {f"setting {each.id}" for each in settings(drive)}
@@ -388,7 +384,7 @@ def _errata(drive: Drive) -> Iterator[dict[str, str]]:
 
 def _bears(drive: Drive, one: Erratum) -> bool:
     """Whether a misprint is about a word that the block reads or writes, or about a keypad setting."""
-    told = {each.register for each in words(drive).registers} | {each.register for each in measures(drive)}
+    told = {each.last.register for each in words(drive).commands} | {each.register for each in measures(drive)}
     told.add(reference(drive).register)
     about = {f"register {address_text(word)}" for word in told} | {f"setting {each.id}" for each in settings(drive)}
     return not about.isdisjoint(one.about)

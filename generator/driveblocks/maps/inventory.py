@@ -13,15 +13,9 @@ FRONT_BEGIN, FRONT_END = "<!-- front:begin -->", "<!-- front:end -->"
 
 _FRONT = ("maker", "drives, each with its page", "misprints found", "left open by the manuals")
 _WORDS = {
-    "run_forward": "run",
-    "run_reverse": "run in reverse",
-    "jog_forward": "jog",
-    "stop": "stop",
-    "quick_stop": "quick stop",
-    "coast_stop": "coast",
-    "fault_reset": "reset a fault",
-    "parameters": "set parameters",
-}
+    "run_forward": "run", "run_reverse": "run in reverse", "jog_forward": "jog", "stop": "stop",
+    "quick_stop": "quick stop", "coast_stop": "coast", "fault_reset": "reset a fault", "parameters": "set parameters",
+}  # fmt: skip
 """What a drive can be asked to do, as the front table lists it."""
 
 _COLUMNS = (

@@ -57,27 +57,18 @@ _TRAPS: tuple[tuple[str, str, Callable[[str], str]], ...] = (
     (r"[-+]?0b[01_]+", "YAML 1.1 reads it as a binary number", _quoted),
     (r"[-+]?0[xX][0-9a-fA-F_]+", "YAML reads it as a number and the manual's digits are lost", _hexadecimal),
     (r"[-+]?[0-9][0-9_]*(?::[0-5]?[0-9])+(?:\.[0-9_]*)?", "YAML 1.1 reads it as a number to base 60", _quoted),
-    (
-        r"[-+]?(?:[0-9][0-9_]*\.?[0-9_]*|\.[0-9_]+)[eE][-+]?[0-9]+",
-        "YAML reads it as a number with an exponent",
-        _quoted,
-    ),
-    (
-        r"[-+]?(?:\.[0-9_]+|[0-9][0-9_]*\.)",
-        "YAML reads it as a number, though a digit is missing beside the point",
-        _quoted,
-    ),
-    (
-        r"[-+]?[0-9]+(?:_[0-9]*)+(?:\.[0-9_]*)?|[-+]?[0-9]+\.[0-9]*_[0-9_]*",
-        "YAML 1.1 drops the underscore and reads a number",
-        _quoted,
-    ),
+    (r"[-+]?(?:[0-9][0-9_]*\.?[0-9_]*|\.[0-9_]+)[eE][-+]?[0-9]+", "YAML reads it as a number with an exponent",
+        _quoted),
+    (r"[-+]?(?:\.[0-9_]+|[0-9][0-9_]*\.)", "YAML reads it as a number, though a digit is missing beside the point",
+        _quoted),
+    (r"[-+]?[0-9]+(?:_[0-9]*)+(?:\.[0-9_]*)?|[-+]?[0-9]+\.[0-9]*_[0-9_]*",
+        "YAML 1.1 drops the underscore and reads a number", _quoted),
     (r"[-+]?\.(?i:inf)|\.(?i:nan)", "YAML reads it as infinity or not-a-number", _quoted),
     (r"[0-9]{4}-[0-9]{1,2}-[0-9]{1,2}(?:[Tt ].*)?", "YAML reads it as a date", _quoted),
     (r"=", "YAML 1.1 reads it as the default value marker", _quoted),
     (r"<<", "it is YAML's merge key", _merge),
     (r"\+[0-9]+(?:\.[0-9]+)?", "YAML drops the plus sign", _quoted),
-)
+)  # fmt: skip
 # one pattern with one group for each trap: a map has ten thousand plain words
 _ANY = re.compile("|".join(f"({pattern})" for pattern, _, _ in _TRAPS))
 _KNOWN = tuple(Trap(reading, instead) for _, reading, instead in _TRAPS)

@@ -28,18 +28,8 @@ class Channel:
     words: list[Said]
 
 
-@dataclass(frozen=True)
-class Channels:
-    """For codesys/Master, beside the drive block and the motor."""
-
-    command: int
-    reads: list[Channel]
-    checks: list[int]
-    """The channels that bring what a run waits for."""
-
-
 def channels(drive: Drive) -> dict[str, object]:
-    """The requests with the words that matter, and the blocks that make and read them."""
+    """For codesys/Master: the requests with the words that matter, and the blocks that make and read them."""
     block = drive_block(drive)
     decoders = {one.address_text: one.name for one in context.decoders(drive) if one.read}
     scales = {one.address_text: one.name for one in context.scales(drive) if one.read}
@@ -58,4 +48,6 @@ def channels(drive: Drive) -> dict[str, object]:
     ]
     reads = [one for one in reads if one.words]
     checks = [turn for turn, one in enumerate(reads, 2) if pins & {each.word.name for each in one.words}]
-    return block.values | motor(drive) | vars(Channels(words(drive).stop.last.register, reads, checks))
+    # checks: the channels that bring what a run waits for
+    told = {"command": words(drive).stop.last.register, "reads": reads, "checks": checks}
+    return block.values | motor(drive) | told

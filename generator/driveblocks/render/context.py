@@ -20,7 +20,7 @@ from driveblocks.maps.revision import revision
 from driveblocks.meaning.pattern import WORD, Pattern, bits_of
 from driveblocks.meaning.quantity import Quantity, of_row
 from driveblocks.meaning.reference import reference
-from driveblocks.meaning.serial import Broadcast, Serial, serial
+from driveblocks.meaning.serial import serial
 from driveblocks.meaning.status import registers, status
 from driveblocks.meaning.words import STOPS, Command, words
 from driveblocks.render.expression import Test, is_real
@@ -88,19 +88,11 @@ def identity(drive: Drive) -> Identity:
     return Identity(drive.prefix, f"{vendor}{drive.family.en}", manual)
 
 
-@dataclass(frozen=True)
-class Version:
-    """For Version."""
-
-    version: str
-    number: int
-    revision: int
-
-
-def version(drive: Drive) -> Version:
-    """The library's version as text and as a number, and the revision of the map."""
+def version(drive: Drive) -> dict[str, object]:
+    """For Version: the library's version as text and as a number, and the revision of the map."""
     major, minor, patch = (int(each) for each in re.findall("[0-9]+", __version__)[:3])
-    return Version(__version__, 10000 * major + 100 * minor + patch, revision(drive))
+    number = 10000 * major + 100 * minor + patch
+    return {"version": __version__, "number": number, "revision": revision(drive)}
 
 
 def source_of(drive: Drive, source: str) -> str:
@@ -121,73 +113,35 @@ FUNCTIONS = {3: "read", 4: "read", 6: "write_single", 8: "diagnostics", 16: "wri
 """Function code -> the folder of its parts of Request."""
 
 
-@dataclass(frozen=True)
-class Access:
-    """For CanAccess: `use` is r or w."""
-
-    name: str
-    use: str
-    spans: tuple[Span, ...]
+def access(drive: Drive, use: str, spans: tuple[Span, ...]) -> dict[str, object]:
+    """For CanAccess: what may be read, or written; `use` is r or w."""
+    return {"name": f"{drive.prefix}_{'CanRead' if use == 'r' else 'CanWrite'}", "use": use, "spans": spans}
 
 
-def access(drive: Drive, use: str, spans: tuple[Span, ...]) -> Access:
-    """What may be read, or written."""
-    return Access(f"{drive.prefix}_{'CanRead' if use == 'r' else 'CanWrite'}", use, spans)
-
-
-@dataclass(frozen=True)
-class Request:
-    """For Request."""
-
-    functions: dict[int, str]
-    """Code -> the folder of its parts."""
-    uncounted: list[int]
-    """Those whose quantity is always 1."""
-    sub_functions: tuple[int, ...]
-    modes: list[str]
-    most: Words
-    ascii: Words
-    tight: bool
-    """An ASCII frame holds less than an RTU frame."""
-    longest: int
-    """Words of the longest write."""
-    serial: Serial
-    beyond: bool
-    """There are addresses that the standard reserves."""
-    unit_pin: str
-    broadcast: Broadcast | None
-    start_addresses: tuple[int, ...]
-    example_read: int
-
-
-def request(drive: Drive, allowed: Plan) -> Request:
-    """What a drive can be asked: of holding registers, since each of its functions is of one table."""
+def request(drive: Drive, allowed: Plan) -> dict[str, object]:
+    """For Request: what a drive can be asked: of holding registers, since each of its functions is of one table."""
     elsewhere = any(space_of(span.first) == "input" for span in allowed.readable)
-    functions = {
-        code: folder
-        for code, folder in FUNCTIONS.items()
-        if code in allowed.functions and not (code == 4 and elsewhere)
-    }
+    codes = [code for code in FUNCTIONS if code in allowed.functions and not (code == 4 and elsewhere)]
     line = serial(drive)
     modes, broadcast = line.modes, line.broadcast
     most = allowed.rtu if "rtu" in modes else _without_framing(drive)
-    less = allowed.ascii.read < most.read or (16 in functions and allowed.ascii.write < most.write)
-    return Request(
-        functions=functions,
-        uncounted=[code for code in (6, 8) if code in functions],
-        sub_functions=allowed.sub_functions,
-        modes=list(modes),
-        most=most,
-        ascii=allowed.ascii,
-        tight="ascii" in modes and less,
-        longest=most.write if "rtu" in modes else min(most.write, allowed.ascii.write),
-        serial=line,
-        beyond=line.highest > 247,
-        unit_pin="Standard" if line.highest > 247 else "UnitAddress",
-        broadcast=broadcast,
-        start_addresses=broadcast.starts if broadcast else (),
-        example_read=next((span.first for span in holding(allowed.readable)), 0),
-    )
+    less = allowed.ascii.read < most.read or (16 in codes and allowed.ascii.write < most.write)
+    return {
+        "functions": {code: FUNCTIONS[code] for code in codes},
+        "uncounted": [code for code in (6, 8) if code in codes],  # those whose quantity is always 1
+        "sub_functions": allowed.sub_functions,
+        "modes": list(modes),
+        "most": most,
+        "ascii": allowed.ascii,
+        "tight": "ascii" in modes and less,  # an ASCII frame holds less than an RTU frame
+        "longest": most.write if "rtu" in modes else min(most.write, allowed.ascii.write),
+        "serial": line,
+        "beyond": line.highest > 247,  # there are addresses that the standard reserves
+        "unit_pin": "Standard" if line.highest > 247 else "UnitAddress",
+        "broadcast": broadcast,
+        "start_addresses": broadcast.starts if broadcast else (),
+        "example_read": next((span.first for span in holding(allowed.readable)), 0),
+    }
 
 
 def _without_framing(drive: Drive) -> Words:
@@ -209,20 +163,13 @@ class Refusal:
     address: int = 0
 
 
-@dataclass(frozen=True)
-class Reply:
-    """For Reply."""
-
-    form: Refusal
-    two_byte_count: bool
+def reply(drive: Drive) -> dict[str, object]:
+    """For Reply: what a reply looks like."""
+    return {"form": refusal(drive), "two_byte_count": dialect(drive).two_byte_count}
 
 
-def reply(drive: Drive) -> Reply:
-    """What a reply looks like."""
-    return Reply(_refusal(drive), dialect(drive).two_byte_count)
-
-
-def _refusal(drive: Drive) -> Refusal:
+def refusal(drive: Drive) -> Refusal:
+    """What a refusal looks like."""
     form = drive.errors.form
     if form is None:
         text = "function code + 80H and one byte, as MODBUS has it; the manual does not say."
@@ -358,36 +305,24 @@ class Told:
     keep: Keep | None
 
 
-@dataclass(frozen=True)
-class Commanded:
-    """For Command."""
+def command(drive: Drive) -> dict[str, object]:
+    """For Command: what commands write.
 
-    source: str
-    elsewhere: bool
-    """Commands have several registers."""
-    stops_elsewhere: bool
-    stop: Told
-    has: dict[str, Told]
-    keeps: list[Keep]
-    branches: list[tuple[str, str, Told]]
-    """In the order in which they count: the template of each, the pin that asks, its word."""
-
-
-def command(drive: Drive) -> Commanded:
-    """What commands write."""
+    The branches are in the order in which they count: the template of each, the pin that asks, its word.
+    """
     stop = words(drive).stop
     keeps = _keeps(drive, stop.last.register)
     told: dict[str, Told] = {one.does: _told(one, keeps) for one in words(drive).commands if not one.negative}
     stops = {each.register for does, each in told.items() if does in STOPS}
-    return Commanded(
-        source=source_of(drive, stop.source),
-        elsewhere=len({each.register for each in told.values()}) > 1,
-        stops_elsewhere=len(stops) > 1,
-        stop=told["stop"],
-        has=told,
-        keeps=list(keeps.values()),
-        branches=list(_branches(told)),
-    )
+    return {
+        "source": source_of(drive, stop.source),
+        "elsewhere": len({each.register for each in told.values()}) > 1,  # commands have several registers
+        "stops_elsewhere": len(stops) > 1,
+        "stop": told["stop"],
+        "has": told,
+        "keeps": list(keeps.values()),
+        "branches": list(_branches(told)),
+    }
 
 
 def _branches(told: dict[str, Told]) -> Iterator[tuple[str, str, Told]]:

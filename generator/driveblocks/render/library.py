@@ -88,15 +88,15 @@ def generic(languages: list[Language]) -> Iterator[File]:
                 rendered = render(f"modbus/{packer.lower()}{bits}.st.j2", **values)
                 yield File("modbus", f"MB_{packer}{box}{bits}", rendered, FRAMES)
     for language in languages:
-        yield _text_file("modbus", vars(text.result_texts(language)), language)
+        yield _text_file("modbus", text.result_texts(language), language)
     yield from _line_blocks(languages)
     yield from _named("types", "types", DRIVE_TYPES, **texts_of(languages))
     yield from _named("vfd", "control", CONTROL_BLOCKS, **texts_of(languages))
     yield from _named("vfd", "control", PARAMETER_BLOCKS, PARAMETERS, least=LEAST_S, **texts_of(languages))
     yield from _named("device", "device", DEVICE, METER, **texts_of(languages))
     for language in languages:
-        yield _text_file("vfd", vars(text.reason_texts(language)), language)
-        yield _text_file("vfd", vars(text.state_texts(language)), language)
+        yield _text_file("vfd", text.reason_texts(language), language)
+        yield _text_file("vfd", text.state_texts(language), language)
 
 
 def _named(folder: str, room: str, names: Iterable[str], extra: str = "", **values: object) -> Iterator[File]:
@@ -141,16 +141,16 @@ def drive(stem: str, drive: Drive, languages: list[Language]) -> Iterator[File]:
 def _blocks(drive: Drive) -> Iterator[tuple[str, Mapping[str, object]]]:
     """The template of each block, and what it is to print."""
     allowed = plan(drive)
-    yield "CanAccess", vars(context.access(drive, "r", holding(allowed.readable)))
-    yield "CanAccess", vars(context.access(drive, "w", holding(allowed.writable)))
+    yield "CanAccess", context.access(drive, "r", holding(allowed.readable))
+    yield "CanAccess", context.access(drive, "w", holding(allowed.writable))
     yield "MayWrite", vars(parameter.may_write(drive, allowed))
     numbers = parameter.addresses(drive)
     if numbers is not None:
         yield type(numbers).__name__, vars(numbers)
-    yield "Request", vars(context.request(drive, allowed))
-    yield "Reply", vars(context.reply(drive))
+    yield "Request", context.request(drive, allowed)
+    yield "Reply", context.reply(drive)
     if drive.operation.in_one_word:
-        yield "Command", vars(context.command(drive))
+        yield "Command", context.command(drive)
     yield "Reference", context.referred(drive)
     yield "Standstill", vars(context.standstill(drive))
     bits = context.fault_number(drive)
@@ -161,7 +161,7 @@ def _blocks(drive: Drive) -> Iterator[tuple[str, Mapping[str, object]]]:
     block = {**drive_block(drive).values, "parameter": parameter.passing(drive, allowed)}
     for part in (*(["Identity"] if first_reads(drive) else []), "Reads", "Orders", "ParameterGate", "Drive"):
         yield part, block
-    yield "Version", vars(context.version(drive))
+    yield "Version", context.version(drive)
 
 
 def texts_of(languages: list[Language]) -> dict[str, str]:
@@ -173,13 +173,13 @@ def texts_of(languages: list[Language]) -> dict[str, str]:
 def _texts(drive: Drive, language: Language) -> Iterator[Mapping[str, object]]:
     """What each text function of a drive is to print, in a language."""
     if text.exists(drive, "Fault", language):
-        yield vars(text.fault_texts(drive, language))
+        yield text.fault_texts(drive, language)
     warnings = text.warning_texts(drive, language)
     if warnings is not None and text.exists(drive, "Warning", language):
-        yield vars(warnings)
+        yield warnings
     if text.exists(drive, "Error", language):
-        yield vars(text.error_texts(drive, language))
-    yield from map(vars, text.place_texts(drive, language))
+        yield text.error_texts(drive, language)
+    yield from text.place_texts(drive, language)
 
 
 def _text_file(folder: str, values: Mapping[str, object], language: Language) -> File:

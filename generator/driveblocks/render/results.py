@@ -34,15 +34,10 @@ RESULTS = (
     Result(15, "NO_SCALE", "the scale of the reference is not set", "未设定给定值比例"),
     Result(16, "NOT_ABLE", "the drive has no such command", "变频器无此命令"),
     Result(17, "NO_MAXIMUM", "the maximum frequency is not set, or makes no sense", "未设定最高频率或其值不合理"),
-    Result(
-        18, "HELD", "a run or jog pin has been TRUE since the reset; release it first", "复位后运行或点动信号未释放"
-    ),
-    Result(
-        19,
-        "NO_FULL_SCALE",
-        "the frequency that is 100 % is not set, or makes no sense",
-        "未设定100%对应的频率或其值不合理",
-    ),
+    Result(18, "HELD", "a run or jog pin has been TRUE since the reset; release it first",
+        "复位后运行或点动信号未释放"),
+    Result(19, "NO_FULL_SCALE", "the frequency that is 100 % is not set, or makes no sense",
+        "未设定100%对应的频率或其值不合理"),
     # receiving a frame
     Result(20, "SILENCE", "no reply", "无应答"),
     Result(21, "SHORT", "reply too short", "应答太短"),
@@ -93,7 +88,7 @@ RESULTS = (
     Result(73, "OTHER_DRIVE", "another kind of drive is at this address", "此地址上是另一种变频器"),
     Result(74, "BUSY", "the drive is busy", "变频器忙"),
     Result(75, "ABI", "drive block and line are of different versions", "驱动功能块与总线功能块版本不同"),
-)
+)  # fmt: skip
 _BY_NAME = {result.name: result for result in RESULTS}
 
 

@@ -2,7 +2,6 @@
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import TypedDict
 
 from driveblocks.maps.form import address_text, space_of
 from driveblocks.maps.model import Bit, Drive, Fault, Faults, Returned, Warnings, Worded
@@ -87,62 +86,38 @@ class Row:
     comment: str
 
 
-class _Written(TypedDict):
-    """How texts are written: what an unknown code gives, whether bytes are escaped, and in which encoding."""
-
-    otherwise: str
-    escaped: bool
-    encoding: str
+Context = dict[str, object]
+"""What a template of a text function prints."""
 
 
-class _Head(TypedDict):
-    """What the head of a function with texts says."""
-
-    title: str
-    source: str
-    code_comment: str
-
-
-@dataclass(frozen=True, kw_only=True)
-class CodeText:
-    """For CodeText."""
-
-    name: str
-    rows: list[Row]
-    title: str
-    source: str
-    code_comment: str
-    otherwise: str
-    escaped: bool
-    encoding: str
-
-
-def result_texts(language: Language) -> CodeText:
+def result_texts(language: Language) -> Context:
     """The result codes of all blocks."""
     texts = [(result.code, result.en, result.zh) for result in results.RESULTS]
-    head = _Head(title="what an ErrorID means", source="the result codes of DriveBlocks.", code_comment="ErrorID")
-    return _own("MB_ResultText", texts, head, language)
+    return _own("MB_Result", texts, ("what an ErrorID means", "the result codes of DriveBlocks.", "ErrorID"), language)
 
 
-def reason_texts(language: Language) -> CodeText:
+def reason_texts(language: Language) -> Context:
     """Why a drive does not run."""
     texts = [(reason.code, reason.en, reason.zh) for reason in reasons.REASONS]
-    head = _Head(title="why a drive does not run", source="the reasons of DriveBlocks.", code_comment="Reason")
-    return _own("VFD_ReasonText", texts, head, language)
+    return _own("VFD_Reason", texts, ("why a drive does not run", "the reasons of DriveBlocks.", "Reason"), language)
 
 
-def state_texts(language: Language) -> CodeText:
+def state_texts(language: Language) -> Context:
     """What a drive block is at."""
     texts = [(code, en, zh) for code, (en, zh) in enumerate(reasons.STATES)]
-    head = _Head(title="what a drive block is at", source="the states of DriveBlocks.", code_comment="State")
-    return _own("VFD_StateText", texts, head, language)
+    return _own("VFD_State", texts, ("what a drive block is at", "the states of DriveBlocks.", "State"), language)
 
 
-def _own(name: str, texts: list[tuple[int, str, str]], head: _Head, language: Language) -> CodeText:
+def _own(name: str, texts: list[tuple[int, str, str]], head: tuple[str, str, str], language: Language) -> Context:
     """Texts of the library's own codes, each with its English and its Chinese."""
     chosen = [(code, en if language.suffix == "En" else zh) for code, en, zh in texts]
-    rows = [_row(language, code, text, text) for code, text in chosen]
-    return CodeText(name=f"{name}{language.suffix}", rows=rows, **head, **_language(language))
+    return _coded(name, [_row(language, code, text, text) for code, text in chosen], head, language)
+
+
+def _coded(name: str, rows: list[Row], head: tuple[str, str, str], language: Language) -> Context:
+    """For CodeText; its head says the title, the source, and what the code is."""
+    title, source, comment = head
+    return {"rows": rows, "title": title, "source": source, "code_comment": comment} | _language(name, language)
 
 
 def led(fault: Fault, text: str) -> str:
@@ -150,36 +125,30 @@ def led(fault: Fault, text: str) -> str:
     return f"{fault.id} {text}" if fault.id else text
 
 
-def fault_texts(drive: Drive, language: Language) -> CodeText:
+def fault_texts(drive: Drive, language: Language) -> Context:
     """Fault codes."""
     return _displayed(drive, language, "fault", drive.faults)
 
 
-def warning_texts(drive: Drive, language: Language) -> CodeText | None:
+def warning_texts(drive: Drive, language: Language) -> Context | None:
     """Warning codes; None where the drive reports none."""
     return _displayed(drive, language, "warning", drive.warnings) if drive.warnings else None
 
 
-def _displayed(drive: Drive, language: Language, kind: str, told: Faults | Warnings) -> CodeText:
+def _displayed(drive: Drive, language: Language, kind: str, told: Faults | Warnings) -> Context:
     rows = [_row(language, one.code, led(one, language.pick(one)), one.text_zh) for one in told.codes]
     if kind == "fault" and all(one.code for one in told.codes):
         rows.insert(0, _row(language, 0, language.unread, None))
-    head = _Head(title=f"{kind} codes", source=source_of(drive, told.source), code_comment=f"{kind} code")
-    name = f"{drive.prefix}_{kind.capitalize()}Text{language.suffix}"
-    return CodeText(name=name, rows=rows, **head, **_language(language))
+    head = f"{kind} codes", source_of(drive, told.source), f"{kind} code"
+    return _coded(f"{drive.prefix}_{kind.capitalize()}", rows, head, language)
 
 
-def error_texts(drive: Drive, language: Language) -> CodeText:
+def error_texts(drive: Drive, language: Language) -> Context:
     """Error codes; those without a printed code have the number that another document gives."""
-    rows = []
-    for error in drive.errors.codes:
-        code = error_number(error)
-        if code is not None:
-            rows.append(_entry(language, code, error))
-    head = _Head(
-        title="refusal codes", source=source_of(drive, drive.errors.source), code_comment="Reason of the reply"
-    )
-    return CodeText(name=f"{drive.prefix}_ErrorText{language.suffix}", rows=rows, **head, **_language(language))
+    numbered = ((error_number(error), error) for error in drive.errors.codes)
+    rows = [_entry(language, code, error) for code, error in numbered if code is not None]
+    head = "refusal codes", source_of(drive, drive.errors.source), "Reason of the reply"
+    return _coded(f"{drive.prefix}_Error", rows, head, language)
 
 
 def _entry(language: Language, code: int, entry: Returned | Bit) -> Row:
@@ -190,8 +159,10 @@ def _row(language: Language, code: int, text: str, zh: str | None) -> Row:
     return Row(code, language.literal(text), (zh or "") if language.suffix == "Zh" else "")
 
 
-def _language(language: Language) -> _Written:
+def _language(name: str, language: Language) -> Context:
+    """The name of a function, what it gives for an unknown code, whether bytes are escaped, and in which encoding."""
     return {
+        "name": f"{name}Text{language.suffix}",
         "otherwise": language.literal(language.unknown),
         "escaped": language.suffix == "Zh",
         "encoding": language.encoding.upper(),
@@ -208,35 +179,16 @@ class Group:
     rows: list[Row]
 
 
-@dataclass(frozen=True, kw_only=True)
-class PlaceText:
-    """For PlaceText."""
-
-    name: str
-    title: str
-    pin: str
-    pin_comment: str
-    groups: list[Group]
-    otherwise: str
-    escaped: bool
-    encoding: str
-
-
-def place_texts(drive: Drive, language: Language) -> Iterator[PlaceText]:
-    """Texts of bits and of values, for the kinds that the drive has."""
+def place_texts(drive: Drive, language: Language) -> Iterator[Context]:
+    """For PlaceText: texts of bits and of values, for the kinds that the drive has."""
     bits = [_group(drive, address, "bits", language) for address in _addresses(drive)]
     values = [_group(drive, address, "values", language) for address in _addresses(drive)]
     kinds = (("Bit", "BitNumber", "bit of the word, 0 to 15", bits), ("Value", "Value", "value of the word", values))
     for kind, pin, comment, groups in kinds:
         if any(group.rows for group in groups) and exists(drive, kind, language):
-            yield PlaceText(
-                name=f"{drive.prefix}_{kind}Text{language.suffix}",
-                title=f"{kind.lower()}s",
-                pin=pin,
-                pin_comment=comment,
-                groups=[group for group in groups if group.rows],
-                **_language(language),
-            )
+            some = [group for group in groups if group.rows]
+            told = {"title": f"{kind.lower()}s", "pin": pin, "pin_comment": comment, "groups": some}
+            yield told | _language(f"{drive.prefix}_{kind}", language)
 
 
 def _addresses(drive: Drive) -> list[int]:

@@ -80,7 +80,7 @@ def _bits(row: Register) -> tuple[tuple[int, str], ...]:
 
 def zeros(drive: Drive, known: Iterable[int]) -> str:
     """The registers of a map that read 0 until somebody writes them, as the manual names them; empty for none."""
-    told = {one.register for one in words(drive).registers} | {reference(drive).register}
+    told = {one.last.register for one in words(drive).commands} | {reference(drive).register}
     taken, free = {*known, *told}, list[int]()
     for section, row in drive.registers():
         if "r" in (row.access or section.access) and not row.unused:

@@ -46,30 +46,15 @@ ROOT = "tests/iec61131/"
 """Where the programs are shipped, below the folder of all blocks."""
 
 GROUPS: dict[str, Callable[[Drive, str], Iterator[Script]]] = {
-    "Motor": motor.scripts,
-    "Slot": told.scripts,
-    "Line": line.scripts,
-    "Figures": count.scripts,
-    "What else is heard": others.scripts,
-    "Pace": pace.scripts,
-    "Restart": again.scripts,
-    "To the millisecond": exact.scripts,
-    "Parts": part.scripts,
-    "Parameters": parameters.scripts,
-    "Several parameters": several.scripts,
-    "A meter beside it": device.scripts,
-    "The manual's frames on the line": manual.scripts,
-    "The manual's frames": vector.scripts,
-    "What may be read": access.scripts,
-    "What may be written": parameter.scripts,
-    "Requests": request.scripts,
-    "Replies": reply.scripts,
-    "Registers": register.scripts,
-    "Commands": command.scripts,
-    "Speed": speed.scripts,
-    "Standstill and faults": standstill.scripts,
-    "Version": version.scripts,
-}
+    "Motor": motor.scripts, "Slot": told.scripts, "Line": line.scripts, "Figures": count.scripts,
+    "What else is heard": others.scripts, "Pace": pace.scripts, "Restart": again.scripts,
+    "To the millisecond": exact.scripts, "Parts": part.scripts, "Parameters": parameters.scripts,
+    "Several parameters": several.scripts, "A meter beside it": device.scripts,
+    "The manual's frames on the line": manual.scripts, "The manual's frames": vector.scripts,
+    "What may be read": access.scripts, "What may be written": parameter.scripts, "Requests": request.scripts,
+    "Replies": reply.scripts, "Registers": register.scripts, "Commands": command.scripts, "Speed": speed.scripts,
+    "Standstill and faults": standstill.scripts, "Version": version.scripts,
+}  # fmt: skip
 """What is tested of a drive, in the words of a user."""
 
 PAGE = "tests/README.md"

@@ -4,7 +4,7 @@ from collections.abc import Iterable, Iterator
 from typing import Protocol
 
 from driveblocks.maps.form import address_text, bits_text
-from driveblocks.maps.model import Drive
+from driveblocks.maps.model import Drive, Register
 from driveblocks.reference import text as reference
 from driveblocks.testing import bench
 from driveblocks.testing.code import NUMBERS, WORDS
@@ -42,9 +42,9 @@ def scripts(drive: Drive, stem: str, languages: Iterable[Language]) -> Iterator[
         if reference.has(drive, language.suffix, drive.errors.codes):
             yield _codes(drive, stem, language, "Error", sorted(number for number in numbers if number is not None))
         if bits and reference.has(drive, language.suffix, bits):
-            yield _bits(drive, stem, language)
+            yield _places(drive, stem, language, "Bit")
         if values and reference.has(drive, language.suffix, values):
-            yield _values(drive, stem, language)
+            yield _places(drive, stem, language, "Value")
 
 
 def results(languages: Iterable[Language]) -> Iterator[Script]:
@@ -113,34 +113,28 @@ def _codes(drive: Drive, stem: str, language: Language, kind: str, codes: list[i
     return program
 
 
-def _bits(drive: Drive, stem: str, language: Language) -> Script:
-    program = bench.script(drive, stem, f"BitText{language.suffix}", "texts of bits")
+def _places(drive: Drive, stem: str, language: Language, kind: str) -> Script:
+    """Texts of bits or of values: each that a register lists, one that it does not, and a register of no table."""
+    program = bench.script(drive, stem, f"{kind}Text{language.suffix}", f"texts of {kind.lower()}s")
     for section, row in drive.registers():
         address = row.address.first
-        if address > LAST or not drive.is_read(row):
-            continue
-        lowest = {bit.bit.first: bits_text(bit.bit) for bit in row.bits}
-        other = next((number for number in range(17) if number not in lowest), 16)
-        unnamed = {other: f"{other}, which has no name"} if lowest else {}
-        for number, bits in sorted({**lowest, **unnamed}.items()):
-            probe = _place(drive, language, "Bit", address, number)
-            program.stage(f"{address_text(address)}.{bits}", probe, source=row.source or section.source)
-    program.stage("a register that is in no table", _place(drive, language, "Bit", 0xFFFF, 0))
+        if address <= LAST and drive.is_read(row):
+            for number, name in sorted((_bits if kind == "Bit" else _values)(row).items()):
+                probe = _place(drive, language, kind, address, number)
+                program.stage(f"{address_text(address)}{name}", probe, source=row.source or section.source)
+    program.stage("a register that is in no table", _place(drive, language, kind, 0xFFFF, 0))
     return program
 
 
-def _values(drive: Drive, stem: str, language: Language) -> Script:
-    program = bench.script(drive, stem, f"ValueText{language.suffix}", "texts of values")
-    for section, row in drive.registers():
-        address = row.address.first
-        if address > LAST or not drive.is_read(row):
-            continue
-        listed = {value.value for value in row.values}
-        for number in sorted({*listed, *({min(max(listed) + 1, 65535)} if listed else ())}):
-            probe = _place(drive, language, "Value", address, number)
-            program.stage(f"{address_text(address)} = {number}", probe, source=row.source or section.source)
-    program.stage("a register that is in no table", _place(drive, language, "Value", 0xFFFF, 0))
-    return program
+def _bits(row: Register) -> dict[int, str]:
+    named = {bit.bit.first: f".{bits_text(bit.bit)}" for bit in row.bits}
+    other = next((number for number in range(17) if number not in named), 16)
+    return named | ({other: f".{other}, which has no name"} if named else {})
+
+
+def _values(row: Register) -> dict[int, str]:
+    listed = {value.value for value in row.values}
+    return {number: f" = {number}" for number in listed | ({min(max(listed) + 1, 65535)} if listed else set())}
 
 
 def _place(drive: Drive, language: Language, kind: str, address: int, number: int) -> Probe:

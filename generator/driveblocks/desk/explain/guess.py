@@ -203,18 +203,9 @@ def _lost_byte(wire: Wire, dialect: Dialect) -> Tries:
 
 
 _PROVED_RTU = (
-    _swapped_crc,
-    _pairs_swapped,
-    _spread,
-    _no_colon,
-    _seven_bits,
-    _crc_of_other_bytes,
-    _other_crc,
-    _modbus_tcp,
-    _binary_lrc,
-    _damaged,
-    _lost_byte,
-)
+    _swapped_crc, _pairs_swapped, _spread, _no_colon, _seven_bits, _crc_of_other_bytes, _other_crc, _modbus_tcp,
+    _binary_lrc, _damaged, _lost_byte,
+)  # fmt: skip
 
 # ---------------------------------------------------------------- ASCII, proved by a checksum
 

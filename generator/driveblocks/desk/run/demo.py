@@ -46,31 +46,18 @@ def _all(pin: str, *names: str) -> dict[str, Value]:
 
 
 ACTS = (
-    Act(
-        "power-up: every drive gets a stop, and is then read",
-        {"PumpHertz": 40.0, "FanHertz": 30.0, **SCALES},
-        then=_all("Ready") | {"HardStopOk": False},
-    ),
+    Act("power-up: every drive gets a stop, and is then read", {"PumpHertz": 40.0, "FanHertz": 30.0, **SCALES},
+        then=_all("Ready") | {"HardStopOk": False}),
     Act("the reset button: the contact of the hard stop closes", {"Reset": True}, then={"HardStopOk": True}),
-    Act(
-        "start: all run pins rise, and the motors ramp up",
-        {"Reset": False, **dict.fromkeys(("Pump1On", "Pump2On", "FanOn"), True)},
-        then=_all("AtSpeed"),
-    ),
-    Act(
-        f"the fan's drive trips: fault {FAULT}; the pumps run on",
-        happens=lambda fan: fan.trip(FAULT),
-        then={"Fan.Fault": True, "Fan.Running": False, **_all("Running", "Pump1", "Pump2")},
-    ),
-    Act(
-        "reset: the run pin falls, Reset rises; fault gone, nothing starts",
-        {"FanOn": False, "Reset": True},
-        happens=SimulatedDrive.clear_cause,
-        then={"Fan.Fault": False, "Fan.Running": False, **_all("Ready", "Fan")},
-    ),
+    Act("start: all run pins rise, and the motors ramp up",
+        {"Reset": False, **dict.fromkeys(("Pump1On", "Pump2On", "FanOn"), True)}, then=_all("AtSpeed")),
+    Act(f"the fan's drive trips: fault {FAULT}; the pumps run on", happens=lambda fan: fan.trip(FAULT),
+        then={"Fan.Fault": True, "Fan.Running": False, **_all("Running", "Pump1", "Pump2")}),
+    Act("reset: the run pin falls, Reset rises; fault gone, nothing starts", {"FanOn": False, "Reset": True},
+        happens=SimulatedDrive.clear_cause, then={"Fan.Fault": False, "Fan.Running": False, **_all("Ready", "Fan")}),
     Act("a new edge: the run pin rises", {"Reset": False, "FanOn": True}, then=_all("AtSpeed")),
     Act("stop all: one pin of the line", {"StopAll": True}, then=_all("StopConfirmed")),
-)
+)  # fmt: skip
 
 
 class Demo:

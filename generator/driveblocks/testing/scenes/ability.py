@@ -10,7 +10,7 @@ from driveblocks.meaning.reference import reference
 from driveblocks.meaning.status import status
 from driveblocks.meaning.watchdog import feeds
 from driveblocks.meaning.words import MOTIONS, Command, words
-from driveblocks.render.constants import ORDERS, STOPS
+from driveblocks.testing.scenes.drive import KINDS, ORDERS
 
 
 @dataclass(frozen=True)
@@ -43,7 +43,7 @@ class Ability:
 
     def kind(self, wanted: str) -> int:
         """Number of the stop that is sent where one is wanted: the drive's own, else its stop."""
-        return STOPS[wanted if self.can(wanted) else "stop"]
+        return KINDS[wanted if self.can(wanted) else "stop"]
 
     @cached_property
     def absent(self) -> frozenset[str]:

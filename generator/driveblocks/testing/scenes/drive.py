@@ -14,7 +14,6 @@ from driveblocks.maps.rivals import own_address
 from driveblocks.meaning.pattern import Pattern
 from driveblocks.meaning.status import registers, status
 from driveblocks.meaning.words import MOTIONS
-from driveblocks.render.constants import ORDERS, STOPS
 from driveblocks.render.environment import strict
 from driveblocks.simulator.copies import RPM_OF_ONE_PAIR
 from driveblocks.simulator.habits import Habits
@@ -25,6 +24,8 @@ from structured_text.language.writing import byte, comment, word
 
 Context = dict[str, Any]
 
+KINDS = {"stop": 1, "quick_stop": 2, "coast_stop": 3, "jog_stop": 4}
+ORDERS = {"run_forward": 5, "run_reverse": 6, "jog_forward": 7, "jog_reverse": 8, "fault_reset": 9}
 MAXIMUM_HZ = 50
 
 
@@ -303,7 +304,7 @@ def _proof(drive: Drive) -> Context:
 
 def _weight(move: Move) -> tuple[int, int]:
     """Their order: of two stops the weaker first, motions behind all; the last one counts."""
-    if move.effect in STOPS:
+    if move.effect in KINDS:
         return (0, -EFFECTS.index(move.effect))
     return (1 + (move.effect in MOTIONS), 0)
 
@@ -317,8 +318,8 @@ def _move(move: Move, at: dict[int, int], made: Table) -> Context:
 
 
 def _does(move: Move, made: Table) -> str:
-    if move.effect in STOPS:
-        return f"Halt := {STOPS[move.effect]};"
+    if move.effect in KINDS:
+        return f"Halt := {KINDS[move.effect]};"
     if move.effect == STATE:
         return f"Led := {made.states.index(move.into or '') + 1};"
     return "Resets := TRUE;" if move.effect == "fault_reset" else f"Order := {ORDERS[move.effect]};"

@@ -15,7 +15,7 @@ from driveblocks.meaning.status import status
 from driveblocks.meaning.words import MOTIONS, Command, words
 from driveblocks.modbus.layout import COIL_ON
 from driveblocks.reference.naming import word_pin
-from driveblocks.render.constants import ORDERS, STOPS
+from driveblocks.testing.scenes.drive import KINDS, ORDERS
 from driveblocks.testing.scenes.scene import Shows
 from structured_text.language.writing import word
 
@@ -194,7 +194,7 @@ def _reads_of(drive: Drive) -> dict[str, set[int]]:
 
 def _orders(drive: Drive) -> Iterator[Row]:
     """Each write of each command; what is no command is a stop."""
-    numbers = STOPS | ORDERS
+    numbers = KINDS | ORDERS
     known = words(drive).named
     several = _several(drive)
     none = ["none", {"Order": 0}, _write(known["stop"], 0, several=several)]

@@ -8,8 +8,7 @@ from driveblocks.meaning.measure import PINS as MEASURED
 from driveblocks.meaning.reference import reference
 from driveblocks.meaning.serial import serial
 from driveblocks.meaning.status import status
-from driveblocks.meaning.words import words
-from driveblocks.render import context
+from driveblocks.meaning.words import MOTIONS, words
 from driveblocks.testing.scenes.ability import Ability
 from driveblocks.testing.scenes.drive import mark
 from driveblocks.testing.scenes.scene import Scene, Shows, Step, scene, script, why
@@ -19,7 +18,7 @@ from structured_text.language.writing import word
 TOLD = "Seen.UntoldMs < 50"
 """The drive has just received a stop."""
 POWER = Step("power-up", until="Motor.Ready", ms=2000, shows={"Reason": "READY"}, brisk=True)
-PINS = {does: pin for pin, does in context.MOTIONS.items()}
+PINS: dict[str, str] = {does: does.title().replace("_", "") for does in MOTIONS}
 RUNNING: Shows = {"Running": True, "Reason": "RUNS", "StopConfirmed": False, "Error": False, "CommOk": True}
 STANDS: Shows = {"StopConfirmed": True, "Running": False, "Seen.Driven": False, "OutputFrequencyHz": 0.0}
 NOTHING_STARTED: Shows = {"Seen.Starts": 0, "Seen.Runs": 0, "Seen.Driven": False}

@@ -8,12 +8,7 @@ from structured_text.engines.embedded.scope import Terms
 from structured_text.language import tree
 
 TERMS: Terms = {
-    tree.Literal: operands.literal,
-    tree.Name: operands.name,
-    tree.Qualified: operands.enumerated,
-    tree.Member: operands.member,
-    tree.Index: operands.index,
-    tree.Unary: operators.unary,
-    tree.Binary: operators.binary,
-    tree.Call: call_term,
-}
+    tree.Literal: operands.literal, tree.Name: operands.name, tree.Qualified: operands.enumerated,
+    tree.Member: operands.member, tree.Index: operands.index, tree.Unary: operators.unary,
+    tree.Binary: operators.binary, tree.Call: call_term,
+}  # fmt: skip

@@ -13,13 +13,8 @@ from structured_text.language import tree
 from structured_text.language.types import LREAL, TEMPORAL, Elementary, Kind, Type
 
 _ORDER: dict[str, type[ast.cmpop]] = {
-    "=": ast.Eq,
-    "<>": ast.NotEq,
-    "<": ast.Lt,
-    ">": ast.Gt,
-    "<=": ast.LtE,
-    ">=": ast.GtE,
-}
+    "=": ast.Eq, "<>": ast.NotEq, "<": ast.Lt, ">": ast.Gt, "<=": ast.LtE, ">=": ast.GtE,
+}  # fmt: skip
 _RING: dict[str, type[ast.operator]] = {"+": ast.Add, "-": ast.Sub, "*": ast.Mult}
 _BITS: dict[str, type[ast.operator]] = {"AND": ast.BitAnd, "OR": ast.BitOr, "XOR": ast.BitXor}
 _FLOAT: dict[str, type[ast.operator]] = {**_RING, "/": ast.Div}

@@ -106,17 +106,9 @@ def guarded(name: str, function: Callable[[float], float]) -> Callable[[float], 
 
 
 MATHEMATICS: dict[str, Callable[[float], float]] = {
-    "SQRT": math.sqrt,
-    "LN": math.log,
-    "LOG": math.log10,
-    "EXP": math.exp,
-    "SIN": math.sin,
-    "COS": math.cos,
-    "TAN": math.tan,
-    "ASIN": math.asin,
-    "ACOS": math.acos,
-    "ATAN": math.atan,
-}
+    "SQRT": math.sqrt, "LN": math.log, "LOG": math.log10, "EXP": math.exp, "SIN": math.sin, "COS": math.cos,
+    "TAN": math.tan, "ASIN": math.asin, "ACOS": math.acos, "ATAN": math.atan,
+}  # fmt: skip
 
 
 def agree(left: float, right: float) -> float:

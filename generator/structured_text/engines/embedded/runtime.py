@@ -49,31 +49,14 @@ def _whole_from_string(text: bytes, name: str, width: int, signed: bool) -> int:
 
 
 _ALIKE: dict[str, Any] = {
-    "abs": abs,
-    "float": float,
-    "len": len,
-    "max": max,
-    "min": min,
-    "setattr": setattr,
-    "single": reals.single,
-    "whole_to_single": reals.whole_to_single,
-    "agree": reals.agree,
-    "agree_truth": reals.agree_truth,
-    "below_bounds": below_bounds,
-    "leaves_type": integers.leaves_type,
-    "leaves_c": integers.leaves_c,
-    "leaves_open": integers.leaves_open,
-    "leaves_range": integers.leaves_range,
-    "divide": integers.divide,
-    "remainder": integers.remainder,
-    "from_bcd": integers.from_bcd,
-    "to_bcd": integers.to_bcd,
-    "string_from_bool": spellings.from_bool,
-    "string_from_whole": spellings.from_whole,
-    "endless": _endless,
-    "aliased": _aliased,
-    "not_once": _not_once,
-}
+    "abs": abs, "float": float, "len": len, "max": max, "min": min, "setattr": setattr, "single": reals.single,
+    "whole_to_single": reals.whole_to_single, "agree": reals.agree, "agree_truth": reals.agree_truth,
+    "below_bounds": below_bounds, "leaves_type": integers.leaves_type, "leaves_c": integers.leaves_c,
+    "leaves_open": integers.leaves_open, "leaves_range": integers.leaves_range, "divide": integers.divide,
+    "remainder": integers.remainder, "from_bcd": integers.from_bcd, "to_bcd": integers.to_bcd,
+    "string_from_bool": spellings.from_bool, "string_from_whole": spellings.from_whole, "endless": _endless,
+    "aliased": _aliased, "not_once": _not_once,
+}  # fmt: skip
 
 
 def _mux(which: int, _zero: Any, *inputs: Any) -> Any:

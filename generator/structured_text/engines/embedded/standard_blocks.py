@@ -24,14 +24,9 @@ _COUNT = {"memory_up": False, "memory_down": False}
 _TIMER = {"state": _IDLE, "previous": False, "start": 0}
 _CLOCK = {"previous": False, "offset": 0}
 _INNER: dict[str, dict[str, Any]] = {
-    "R_TRIG": _EDGE,
-    "F_TRIG": {"memory": None},
-    "SEMA": {"memory": False},
-    "TP": _TIMER,
-    "TON": _TIMER,
-    "TOF": _TIMER,
-    "RTC": _CLOCK,
-}
+    "R_TRIG": _EDGE, "F_TRIG": {"memory": None}, "SEMA": {"memory": False}, "TP": _TIMER, "TON": _TIMER,
+    "TOF": _TIMER, "RTC": _CLOCK,
+}  # fmt: skip
 
 
 class Run:

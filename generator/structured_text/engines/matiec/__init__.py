@@ -19,14 +19,6 @@ from structured_text.engines.matiec.errors import (
 from structured_text.engines.matiec.installation import Installation, find_installations
 
 __all__ = [
-    "BadCError",
-    "CCompiler",
-    "CompilerCrashError",
-    "CompilerTimeoutError",
-    "Flags",
-    "Installation",
-    "MatiecEngine",
-    "RefusedWithCrashError",
-    "find_c_compiler",
-    "find_installations",
-]
+    "BadCError", "CCompiler", "CompilerCrashError", "CompilerTimeoutError", "Flags", "Installation", "MatiecEngine",
+    "RefusedWithCrashError", "find_c_compiler", "find_installations",
+]  # fmt: skip

@@ -267,12 +267,6 @@ def _return(cursor: Cursor) -> Statement:
 
 
 _STARTS: dict[str, Callable[[Cursor], Statement]] = {
-    "IF": _if,
-    "CASE": _case,
-    "FOR": _for,
-    "WHILE": _while,
-    "REPEAT": _repeat,
-    ";": _empty,
-    "EXIT": _exit,
+    "IF": _if, "CASE": _case, "FOR": _for, "WHILE": _while, "REPEAT": _repeat, ";": _empty, "EXIT": _exit,
     "RETURN": _return,
-}
+}  # fmt: skip

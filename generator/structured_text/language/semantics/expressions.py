@@ -23,18 +23,8 @@ from structured_text.language.tree import (
 )
 
 INFERENCE: Inference = {
-    Literal: operands.literal,
-    Name: operands.name,
-    Qualified: operands.qualified,
-    Member: operands.member,
-    Index: operands.index,
-    BitAccess: operands.bit_access,
-    Dereference: operands.dereference,
-    Direct: operands.direct,
-    Unary: operators.unary,
-    Binary: operators.binary,
-    Call: call_type,
-    Repeat: operands.misplaced,
-    ArrayInitial: operands.misplaced,
-    StructInitial: operands.misplaced,
-}
+    Literal: operands.literal, Name: operands.name, Qualified: operands.qualified, Member: operands.member,
+    Index: operands.index, BitAccess: operands.bit_access, Dereference: operands.dereference, Direct: operands.direct,
+    Unary: operators.unary, Binary: operators.binary, Call: call_type, Repeat: operands.misplaced,
+    ArrayInitial: operands.misplaced, StructInitial: operands.misplaced,
+}  # fmt: skip

@@ -32,16 +32,11 @@ _COMPARISONS = frozenset(["=", "<>", "<", ">", "<=", ">="])
 _KINDS_OF = {"AND": ANY_BIT, "OR": ANY_BIT, "XOR": ANY_BIT, "MOD": ANY_INT}
 # What + and - make of moments and durations (table 30).
 _TIMES: dict[tuple[str, Type, Type], Type] = {
-    ("+", TIME, TIME): TIME,
-    ("-", TIME, TIME): TIME,
-    ("+", TIME_OF_DAY, TIME): TIME_OF_DAY,
-    ("-", TIME_OF_DAY, TIME): TIME_OF_DAY,
-    ("-", TIME_OF_DAY, TIME_OF_DAY): TIME,
-    ("+", DATE_AND_TIME, TIME): DATE_AND_TIME,
-    ("-", DATE_AND_TIME, TIME): DATE_AND_TIME,
-    ("-", DATE_AND_TIME, DATE_AND_TIME): TIME,
-    ("-", DATE, DATE): TIME,
-}
+    ("+", TIME, TIME): TIME, ("-", TIME, TIME): TIME, ("+", TIME_OF_DAY, TIME): TIME_OF_DAY,
+    ("-", TIME_OF_DAY, TIME): TIME_OF_DAY, ("-", TIME_OF_DAY, TIME_OF_DAY): TIME,
+    ("+", DATE_AND_TIME, TIME): DATE_AND_TIME, ("-", DATE_AND_TIME, TIME): DATE_AND_TIME,
+    ("-", DATE_AND_TIME, DATE_AND_TIME): TIME, ("-", DATE, DATE): TIME,
+}  # fmt: skip
 
 
 def unary(scope: Scope, value: Unary) -> Type:

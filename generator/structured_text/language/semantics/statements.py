@@ -197,15 +197,6 @@ def _overlaps(scope: Scope, taken: list[tuple[int, int, int]]) -> None:
 
 
 _CHECKS: dict[type[Statement], Callable[[Scope, Any], None]] = {
-    Assign: _assign,
-    CallStatement: _call_statement,
-    If: _if,
-    Case: _case,
-    For: _for,
-    While: _while,
-    RepeatUntil: _repeat,
-    Exit: _exit,
-    Continue: _exit,
-    Return: _return,
-    Empty: _empty,
-}
+    Assign: _assign, CallStatement: _call_statement, If: _if, Case: _case, For: _for, While: _while,
+    RepeatUntil: _repeat, Exit: _exit, Continue: _exit, Return: _return, Empty: _empty,
+}  # fmt: skip
