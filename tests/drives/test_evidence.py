@@ -143,5 +143,5 @@ def test_a_trip_is_proved_like_a_standstill() -> None:
 def test_settings_are_proved_before_a_start() -> None:
     bench = doubted(Bench("SN300G5"))
     bench.run(3000)
-    assert not bench.out("Seen.SettingsRead")
+    assert not bench.out("Known.Seen.SettingsRead")
     doubted(bench, on=False).stopped()

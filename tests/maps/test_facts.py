@@ -438,6 +438,7 @@ def test_sn300g5_settings() -> None:
     assert {one.id: one.needed.value for one in SN.settings if one.needed and one.needed.value} == {
         "B1-01": 2,
         "B1-02": 2,
+        "H5-05": 1,
     }
 
 
