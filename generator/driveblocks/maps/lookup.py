@@ -7,19 +7,7 @@ from dataclasses import dataclass
 
 from driveblocks.maps import view
 from driveblocks.maps.form import SPACES, address_text, span_text
-from driveblocks.maps.model import (
-    USES,
-    Area,
-    Bit,
-    Drive,
-    ErrorCode,
-    Fault,
-    Frame,
-    Function,
-    Register,
-    Section,
-    Setting,
-)
+from driveblocks.maps.model import USES, Area, Bit, Drive, ErrorCode, Fault, Frame, Function, Register, Section, Setting
 from driveblocks.maps.numbering import numbered
 
 Found = Section | Register | Area | Bit | Fault | ErrorCode | Function | Setting | Frame

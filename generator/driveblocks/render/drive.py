@@ -16,15 +16,7 @@ from driveblocks.maps.rivals import First, first_reads, refusals
 from driveblocks.maps.trust import second_hand
 from driveblocks.meaning.measure import PINS, Measure, Pin, measures, own_maximum
 from driveblocks.meaning.pattern import Pattern, bits_of
-from driveblocks.meaning.polls import (
-    Poll,
-    fast_words,
-    meaning_words,
-    other_words,
-    polls,
-    schedule,
-    slow_words,
-)
+from driveblocks.meaning.polls import Poll, fast_words, meaning_words, other_words, polls, schedule, slow_words
 from driveblocks.meaning.reference import Reference, reference
 from driveblocks.meaning.roles import Roles, roles
 from driveblocks.meaning.serial import serial
