@@ -436,7 +436,7 @@ def _tested(drive: Drive, one: Pattern) -> Test:
 def _fault(drive: Drive) -> Faulty:
     if drive.faults.present is not None:
         bits = drive.faults.present_bits
-        mask, times = (sum(1 << bit for bit in bits), 1 << bits.first) if bits else (0, 1)
+        mask, times = (bits_of([bits]), 1 << bits.first) if bits else (0, 1)
         return Faulty(word_input(drive, drive.faults.present), [], mask, times)
     numbers = context.fault_number(drive)
     return Faulty(None, numbers.words if numbers else [])
