@@ -5,21 +5,22 @@ from functools import cache
 from tests.second.line import RUNS, Bench, Frame
 from tests.second.station import maps
 
-from driveblocks.meaning.words import Write, words
+from driveblocks.meaning.pattern import Pattern
+from driveblocks.meaning.words import words
 
 STOPS = ("stop", "quick_stop", "coast_stop", "jog_stop")
 MOTIONS = dict(zip(RUNS, ("run_forward", "run_reverse", "jog_forward", "jog_reverse"), strict=True))
 
 
 @cache
-def _words(kind: str) -> list[tuple[str, Write]]:
+def _words(kind: str) -> list[tuple[str, Pattern]]:
     """The writes of a map's commands, each with what it is for."""
-    return [(command.does, each) for command in words(maps()[kind]).commands for each in command.writes]
+    return [(command.does, each.pattern) for command in words(maps()[kind]).commands for each in command.writes]
 
 
 def does(bench: Bench, frame: Frame) -> set[str]:
     """What a write may do; nothing: it is no command."""
-    found = {does for does, each in _words(bench.types[0]) if each.register == frame.address and each.is_in(frame.word)}
+    found = {does for does, each in _words(bench.types[0]) if each.register == frame.address and each.holds(frame.word)}
     return found | ({"reference"} if frame.address == bench.maps[0].operation.reference.register else set())
 
 

@@ -7,7 +7,7 @@ from typing import Annotated, Any, Literal
 import pytest
 
 from driveblocks.maps import form
-from driveblocks.maps.model import Entry, Text, fact
+from driveblocks.maps.model import Entry, Text, fact, option
 from driveblocks.maps.shape import EntryOf, Key, ListOf, OneOf, keys_of, required_of, shape_of
 
 
@@ -16,10 +16,10 @@ class Sample(Entry):
     """A class with a key of each shape."""
 
     word: Annotated[str, form.WORD] = fact("a word", "x")
-    many: tuple[Annotated[int, form.NUMBER], ...] = fact("numbers", "[1]", optional=True, default=())
-    truth: bool = fact("a truth", "true", optional=True, default=False)
-    kind: Literal["a", "b"] | None = fact("a kind", "a", optional=True)
-    text: Text | None = fact("a text", "{en: a, zh: 一}", optional=True)
+    many: tuple[Annotated[int, form.NUMBER], ...] = option("numbers", "[1]", default=())
+    truth: bool = option("a truth", "true", default=False)
+    kind: Literal["a", "b"] | None = option("a kind", "a")
+    text: Text | None = option("a text", "{en: a, zh: 一}")
 
 
 def test_keys_come_in_order_with_their_words() -> None:

@@ -146,16 +146,10 @@ ID = _form(
     "write the id as the manual prints it, such as H5-01, or a range A2-01..A2-32",
 )
 ADDRESS = _form(
-    "address",
-    _FEW + "[0-9A-F]{4}H",
-    _address,
-    "write four upper-case hexadecimal digits and H, such as 0026H",
+    "address", _FEW + "[0-9A-F]{4}H", _address, "write four upper-case hexadecimal digits and H, such as 0026H"
 )
 ADDRESSES = _form(
-    "address or range",
-    _FEW + "[0-9A-F]{4}H(-[0-9A-F]{4}H)?",
-    _addresses,
-    "write 0026H, or a range 0106H-0125H",
+    "address or range", _FEW + "[0-9A-F]{4}H(-[0-9A-F]{4}H)?", _addresses, "write 0026H, or a range 0106H-0125H"
 )
 BITS = _form(
     "bit or bits",
@@ -174,11 +168,7 @@ NUMBER = _form(
 COUNT = _form("count", r"[1-9][0-9]{0,5}", int, "write a decimal number from 1 to 999999", numeric=True)
 WRITES = _form("number of writes", r"[1-9][0-9]{0,8}", int, "write a decimal number up to 999999999", numeric=True)
 DECIMAL = _form(
-    "decimal",
-    r"-?(0|[1-9][0-9]{0,8})(\.[0-9]{1,9})?",
-    Decimal,
-    "write a decimal number such as 0.1",
-    numeric=True,
+    "decimal", r"-?(0|[1-9][0-9]{0,8})(\.[0-9]{1,9})?", Decimal, "write a decimal number such as 0.1", numeric=True
 )
 BYTES = _form(
     "row of bytes", r"[0-9A-F]{2}( [0-9A-F]{2})*", bytes.fromhex, "write bytes as upper-case pairs: 01 03 00 26"

@@ -7,19 +7,7 @@ from dataclasses import dataclass
 
 from driveblocks.maps import view
 from driveblocks.maps.form import SPACES, address_text, span_text
-from driveblocks.maps.model import (
-    USES,
-    Area,
-    Bit,
-    Drive,
-    ErrorCode,
-    Fault,
-    Frame,
-    Function,
-    Register,
-    Section,
-    Setting,
-)
+from driveblocks.maps.model import USES, Area, Bit, Drive, ErrorCode, Fault, Frame, Function, Register, Section, Setting
 from driveblocks.maps.numbering import numbered
 
 Found = Section | Register | Area | Bit | Fault | ErrorCode | Function | Setting | Frame
@@ -52,7 +40,7 @@ def find(drive: Drive, word: str) -> list[Match]:
     found = [*_by_id(drive, upper)] if word else []
     if match := _TABLE.fullmatch(upper):
         return [*_in_table(drive, match[1].lower(), match[2], hexadecimal=upper.endswith("H"))]
-    if upper.isdecimal() and (at := numbered(drive, "holding", int(upper))) is not None:
+    if re.fullmatch("[0-9]{1,6}", upper) and (at := numbered(drive, "holding", int(upper))) is not None:
         found += _at_address(drive, at, spelled=True)
     number = _number(upper)
     if number is not None:

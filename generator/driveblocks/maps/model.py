@@ -69,10 +69,14 @@ Act = Literal[
 """What a bit or a value of a command register does to the motor."""
 
 
-def fact(doc: str, example: str, *, optional: bool = False, default: Any = None) -> Any:
-    """Declare a key: its meaning, one example as YAML, and whether it may be left out."""
-    metadata = {"doc": doc, "example": example}
-    return field(metadata=metadata, default=default) if optional else field(metadata=metadata)
+def fact(doc: str, example: str) -> Any:
+    """Declare a key: its meaning, and one example as YAML."""
+    return field(metadata={"doc": doc, "example": example})
+
+
+def option(doc: str, example: str, *, default: Any = None) -> Any:
+    """Declare a key that may be left out."""
+    return field(metadata={"doc": doc, "example": example}, default=default)
 
 
 _CHINESE = "the manual's Chinese, as printed, misprints included; a must where the manual is Chinese"
@@ -126,11 +130,9 @@ class Text(Worded, Entry):
     """A text in English, and as the manual has it where that is another language."""
 
     en: English = fact("English", "Shanghai SHUEN")
-    zh: Str | None = fact(
-        "Chinese as the manual prints it; a must where the manual is Chinese", "上海数恩", optional=True
-    )
-    zh_used: Str | None = fact("Chinese as it should read, where the manual misprints it", "超速", optional=True)
-    wording: Str | None = fact(_WORDING, "Schaltanlagenbau Nord", optional=True)
+    zh: Str | None = option("Chinese as the manual prints it; a must where the manual is Chinese", "上海数恩")
+    zh_used: Str | None = option("Chinese as it should read, where the manual misprints it", "超速")
+    wording: Str | None = option(_WORDING, "Schaltanlagenbau Nord")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -138,26 +140,24 @@ class Named(Worded, Entry):
     """Base of entries with a name."""
 
     name: English = fact("English name, a short noun phrase; identifiers are made from it", "Output frequency")
-    zh: Str | None = fact(_CHINESE, "输出频率", optional=True)
-    zh_used: Str | None = fact(
-        "the wording to show, where `zh` holds a misprint (needs an erratum)", "超速", optional=True
-    )
-    wording: Str | None = fact(_WORDING, "Ausgangsfrequenz", optional=True)
+    zh: Str | None = option(_CHINESE, "输出频率")
+    zh_used: Str | None = option("the wording to show, where `zh` holds a misprint (needs an erratum)", "超速")
+    wording: Str | None = option(_WORDING, "Ausgangsfrequenz")
 
 
 @dataclass(frozen=True, kw_only=True)
 class Short(Entry):
     """Shorter wordings, for the blocks that return the text: a STRING holds 80 bytes everywhere, and no more."""
 
-    en: English | None = fact("English that fits", "PID target on the bus", optional=True)
-    zh: Str | None = fact("Chinese that fits in UTF-8 and GB18030", '"总线 PID 目标值: 0 无效 1 有效"', optional=True)
+    en: English | None = option("English that fits", "PID target on the bus")
+    zh: Str | None = option("Chinese that fits in UTF-8 and GB18030", '"总线 PID 目标值: 0 无效 1 有效"')
 
 
 @dataclass(frozen=True, kw_only=True)
 class Returned(Named):
     """Base of entries whose names a block returns as texts."""
 
-    short: Short | None = fact("shorter wordings, where a text is longer than 80 bytes", "{zh: ...}", optional=True)
+    short: Short | None = option("shorter wordings, where a text is longer than 80 bytes", "{zh: ...}")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -167,28 +167,23 @@ class Corroboration(Entry):
     document: Word = fact("id of an entry under `documents`", "modbus_application")
     page: Str = fact("page or section in that document", "section 7, page 48")
     reads: English = fact("what it says, in short", "01 is ILLEGAL FUNCTION")
-    value: Number | None = fact("the value that it gives, where it is a number", "1", optional=True)
+    value: Number | None = option("the value that it gives, where it is a number", "1")
 
 
 @dataclass(frozen=True, kw_only=True)
 class Manual(Entry):
     """The manual that the map was read from."""
 
-    language: Language | None = fact(
-        "its language; left out, it is Chinese where the title has a `zh`, and English where it has none",
-        "en",
-        optional=True,
+    language: Language | None = option(
+        "its language; left out, it is Chinese where the title has a `zh`, and English where it has none", "en"
     )
     title: Text = fact("title in English, and as printed", "{en: Communication protocol, zh: 通讯协议说明}")
     publisher: Text = fact("who published it", "{en: Shanghai SHUEN, zh: 上海数恩}")
-    edition: Str | None = fact("edition or date as printed; left out when none is printed", "V20160418", optional=True)
-    covers: English = fact(
-        "which part of the drive's documentation this is", "chapter 11 of the user manual", optional=True
-    )
-    second_hand: bool = fact(
+    edition: Str | None = option("edition or date as printed; left out when none is printed", "V20160418")
+    covers: English = option("which part of the drive's documentation this is", "chapter 11 of the user manual")
+    second_hand: bool = option(
         "the map rests on what others wrote down: the drive block runs only when its user has checked the manual",
         "true",
-        optional=True,
         default=False,
     )
 
@@ -205,12 +200,11 @@ class Document(Entry):
     id: Word = fact("short name for references", "modbus_application")
     title: Str = fact("title as printed", "MODBUS Application Protocol Specification")
     publisher: Str = fact("who published it", "Modbus Organization")
-    edition: Str | None = fact("edition, revision or date", "V1.1b3", optional=True)
-    trust: Trust | None = fact(
+    edition: Str | None = option("edition, revision or date", "V1.1b3")
+    trust: Trust | None = option(
         "how far it can be trusted, where facts are taken from it: `read` in the maker's document on this drive; "
         "`sister`: the maker's on a sister model; `transcribed` by somebody else; `in_use`: software of machines",
         "sister",
-        optional=True,
     )
 
 
@@ -219,21 +213,18 @@ class Value(Returned):
     """One value of an enumeration."""
 
     value: Number = fact("the number on the wire or on the keypad", "1")
-    does: tuple[Act, ...] = fact(
+    does: tuple[Act, ...] = option(
         f"of a command register, what the value does to the motor, all of it; {_ACTS}; a value but 0 that does not say "
         "it counts as starting",
         "[starts, reverses]",
-        optional=True,
         default=(),
     )
-    by: By | None = fact(_BY, "edge", optional=True)
-    holds: bool = fact(_HOLDS, "true", optional=True, default=False)
-    symbol: Symbol | None = fact(
-        "identifier in Structured Text, where the one made from the name is too long or taken",
-        "InputTerminals",
-        optional=True,
+    by: By | None = option(_BY, "edge")
+    holds: bool = option(_HOLDS, "true", default=False)
+    symbol: Symbol | None = option(
+        "identifier in Structured Text, where the one made from the name is too long or taken", "InputTerminals"
     )
-    note: English | None = fact("what else a person must know", "0 is not a stop", optional=True)
+    note: English | None = option("what else a person must know", "0 is not a stop")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -252,17 +243,14 @@ class Range(Entry):
 class Needed(Entry):
     """What a keypad setting must be before the drive listens."""
 
-    value: Number | None = fact(
-        "the number to enter; left out where any value serves that the PLC also uses", "2", optional=True
+    value: Number | None = option("the number to enter; left out where any value serves that the PLC also uses", "2")
+    one_of: tuple[Number, ...] = option(
+        "in the place of `value`: the numbers that serve, where more than one does", "[1, 2]", default=()
     )
-    one_of: tuple[Number, ...] = fact(
-        "in the place of `value`: the numbers that serve, where more than one does", "[1, 2]", optional=True, default=()
-    )
-    by_terminals: Number | None = fact(
+    by_terminals: Number | None = option(
         "the number that lets the drive's terminals run it instead, of the setting that chooses the source of the run "
         "command",
         "1",
-        optional=True,
     )
     why: English = fact("what it is for", "run commands come from the bus")
 
@@ -286,24 +274,23 @@ class Setting(Named):
 
     id: Id = fact("the manual's id", "H5-02")
     source: English = fact("where the manual says so", "table of communication parameters")
-    document: Word | None = fact(_SAYS_SO, "fieldbus_guide", optional=True)
-    register: Address | None = fact("its register, where the manual lists one", "041DH", optional=True)
-    range: Range | None = fact("allowed numbers", "{min: 0, max: 4}", optional=True)
-    unit_step: Number | None = fact("smallest step", "1", optional=True)
-    default: Str | None = fact("factory setting as printed", '"3"', optional=True)
-    values: tuple[Value, ...] = fact(
-        "meaning of each number", "[{value: 0, name: 1200 bit/s, zh: 1200BPS}]", optional=True, default=()
+    document: Word | None = option(_SAYS_SO, "fieldbus_guide")
+    register: Address | None = option("its register, where the manual lists one", "041DH")
+    range: Range | None = option("allowed numbers", "{min: 0, max: 4}")
+    unit_step: Number | None = option("smallest step", "1")
+    default: Str | None = option("factory setting as printed", '"3"')
+    values: tuple[Value, ...] = option(
+        "meaning of each number", "[{value: 0, name: 1200 bit/s, zh: 1200BPS}]", default=()
     )
-    needed: Needed | None = fact("what it must be before the drive listens", "{value: 2, why: ...}", optional=True)
-    visible_when: tuple[Switch, ...] = fact(
+    needed: Needed | None = option("what it must be before the drive listens", "{value: 2, why: ...}")
+    visible_when: tuple[Switch, ...] = option(
         "the keypad shows it only while other settings are so, all of them: a level of access, a macro",
         "[{setting: H5-05, value: 0}]",
-        optional=True,
         default=(),
     )
-    note: English | None = fact("what else a person must know", "takes effect after a power cycle", optional=True)
-    corroborated: tuple[Corroboration, ...] = fact(
-        "other documents on this", "[{document: ..., page: ..., reads: ...}]", optional=True, default=()
+    note: English | None = option("what else a person must know", "takes effect after a power cycle")
+    corroborated: tuple[Corroboration, ...] = option(
+        "other documents on this", "[{document: ..., page: ..., reads: ...}]", default=()
     )
 
 
@@ -329,8 +316,8 @@ class FormatCode(Entry):
 
     code: Number = fact("number on the keypad", "1")
     parity: Literal["none", "even", "odd"] = fact("parity bit", "even")
-    data_bits: Literal[7, 8] | None = fact("data bits", "8", optional=True)
-    stop_bits: Literal[1, 2] | None = fact("stop bits", "1", optional=True)
+    data_bits: Literal[7, 8] | None = option("data bits", "8")
+    stop_bits: Literal[1, 2] | None = option("stop bits", "1")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -338,9 +325,9 @@ class Choice(Entry):
     """Base of a serial property: the setting that chooses it and the factory's choice."""
 
     source: English = fact("where the manual says so", "table of communication parameters")
-    document: Word | None = fact(_SAYS_SO, "fieldbus_guide", optional=True)
-    setting: Id | None = fact("id of the keypad setting", "H5-02", optional=True)
-    default: Number | None = fact("factory setting, as a code of the list", "3", optional=True)
+    document: Word | None = option(_SAYS_SO, "fieldbus_guide")
+    setting: Id | None = option("id of the keypad setting", "H5-02")
+    default: Number | None = option("factory setting, as a code of the list", "3")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -348,22 +335,22 @@ class ModeChoice(Choice):
     """RTU, ASCII or both."""
 
     modes: tuple[Literal["rtu", "ascii"], ...] = fact("what the drive speaks", "[rtu, ascii]")
-    codes: tuple[ModeCode, ...] = fact("codes of the setting", "[{code: 2, mode: rtu}]", optional=True, default=())
+    codes: tuple[ModeCode, ...] = option("codes of the setting", "[{code: 2, mode: rtu}]", default=())
 
 
 @dataclass(frozen=True, kw_only=True)
 class BaudChoice(Choice):
     """Bit rates."""
 
-    codes: tuple[BaudCode, ...] = fact("codes of the setting", "[{code: 3, baud: 9600}]", optional=True, default=())
+    codes: tuple[BaudCode, ...] = option("codes of the setting", "[{code: 3, baud: 9600}]", default=())
 
 
 @dataclass(frozen=True, kw_only=True)
 class FormatChoice(Choice):
     """Character formats."""
 
-    codes: tuple[FormatCode, ...] = fact(
-        "codes of the setting", "[{code: 1, parity: even, data_bits: 8, stop_bits: 1}]", optional=True, default=()
+    codes: tuple[FormatCode, ...] = option(
+        "codes of the setting", "[{code: 1, parity: even, data_bits: 8, stop_bits: 1}]", default=()
     )
 
 
@@ -374,18 +361,14 @@ class UnitAddress(Entry):
     min: Number = fact("smallest", "1")
     max: Number = fact("greatest", "247")
     source: English = fact("where the manual says so", "bus structure (3)")
-    document: Word | None = fact(_SAYS_SO, "fieldbus_guide", optional=True)
-    above_247: English | None = fact(
-        "where the manual says that 248 to 255 are addresses too, which the standard reserves",
-        "table 3, `1 to 250`",
-        optional=True,
+    document: Word | None = option(_SAYS_SO, "fieldbus_guide")
+    above_247: English | None = option(
+        "where the manual says that 248 to 255 are addresses too, which the standard reserves", "table 3, `1 to 250`"
     )
-    setting: Id | None = fact("id of the keypad setting", "H5-01", optional=True)
-    default: Number | None = fact("factory setting", "1", optional=True)
-    no_address: Number | None = fact(
-        "the number of that setting at which the drive answers nobody; it may be the factory setting",
-        "0",
-        optional=True,
+    setting: Id | None = option("id of the keypad setting", "H5-01")
+    default: Number | None = option("factory setting", "1")
+    no_address: Number | None = option(
+        "the number of that setting at which the drive answers nobody; it may be the factory setting", "0"
     )
 
     @property
@@ -399,14 +382,13 @@ class Silence(Entry):
     """Silence on the line around a frame."""
 
     source: English = fact("where the manual says so", "RTU frame structure")
-    document: Word | None = fact(_SAYS_SO, "fieldbus_guide", optional=True)
-    characters: Factor | None = fact("silence before and after a frame, in character times", "3.5", optional=True)
-    milliseconds: Factor | None = fact(
+    document: Word | None = option(_SAYS_SO, "fieldbus_guide")
+    characters: Factor | None = option("silence before and after a frame, in character times", "3.5")
+    milliseconds: Factor | None = option(
         "silence before and after a frame, in ms at any bit rate; also the pause that a drive wants after its reply",
         "10",
-        optional=True,
     )
-    gap_characters: Factor | None = fact("longest pause inside a frame, in character times", "1.5", optional=True)
+    gap_characters: Factor | None = option("longest pause inside a frame, in character times", "1.5")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -416,7 +398,7 @@ class ReplyDelay(Entry):
     setting: Id = fact("id of the keypad setting, whose `default` and `range` are counts of it", "P14.03")
     milliseconds: Factor = fact("how long one count is, ms", "1")
     source: English = fact("where the manual says so", "table of communication parameters")
-    document: Word | None = fact(_SAYS_SO, "fieldbus_guide", optional=True)
+    document: Word | None = option(_SAYS_SO, "fieldbus_guide")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -426,9 +408,9 @@ class Broadcast(Entry):
     address: Number = fact("the broadcast address", "0")
     replies: bool = fact("whether drives answer it", "false")
     source: English = fact("where the manual says so", "bus structure (3)")
-    document: Word | None = fact(_SAYS_SO, "fieldbus_guide", optional=True)
-    start_addresses: tuple[Address, ...] = fact(
-        "the only start addresses that a broadcast may use", "[0000H, 0001H]", optional=True, default=()
+    document: Word | None = option(_SAYS_SO, "fieldbus_guide")
+    start_addresses: tuple[Address, ...] = option(
+        "the only start addresses that a broadcast may use", "[0000H, 0001H]", default=()
     )
 
 
@@ -438,18 +420,14 @@ class Serial(Entry):
 
     interface: Text = fact("electrical interface", "{en: RS-485 half duplex, zh: RS485}")
     mode: ModeChoice = fact("RTU or ASCII", "{modes: [rtu], source: ...}")
-    baud: BaudChoice | None = fact(
-        "bit rates", "{setting: H5-02, default: 3, codes: [...], source: ...}", optional=True
-    )
-    format: FormatChoice | None = fact(
-        "character formats", "{setting: H5-03, codes: [...], source: ...}", optional=True
-    )
+    baud: BaudChoice | None = option("bit rates", "{setting: H5-02, default: 3, codes: [...], source: ...}")
+    format: FormatChoice | None = option("character formats", "{setting: H5-03, codes: [...], source: ...}")
     unit: UnitAddress = fact("unit addresses", "{min: 1, max: 247, source: ...}")
-    silence: Silence | None = fact("pauses around frames", "{characters: 3.5, source: ...}", optional=True)
-    reply_delay: ReplyDelay | None = fact(
-        "what lets the drive answer later", "{setting: P14.03, milliseconds: 1, source: ...}", optional=True
+    silence: Silence | None = option("pauses around frames", "{characters: 3.5, source: ...}")
+    reply_delay: ReplyDelay | None = option(
+        "what lets the drive answer later", "{setting: P14.03, milliseconds: 1, source: ...}"
     )
-    broadcast: Broadcast | None = fact("broadcast", "{address: 0, replies: false, source: ...}", optional=True)
+    broadcast: Broadcast | None = option("broadcast", "{address: 0, replies: false, source: ...}")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -458,29 +436,24 @@ class Limit(Entry):
 
     value: Count = fact("the number", "16")
     source: English = fact("where the manual says so", "command 03H")
-    document: Word | None = fact(_SAYS_SO, "fieldbus_guide", optional=True)
+    document: Word | None = option(_SAYS_SO, "fieldbus_guide")
 
 
 @dataclass(frozen=True, kw_only=True)
 class Limits(Entry):
     """What fits into one frame."""
 
-    read_words: Limit | None = fact("words that one 03H may read", "{value: 16, source: ...}", optional=True)
-    write_words: Limit | None = fact("words that one request may write", "{value: 16, source: ...}", optional=True)
-    group: Limit | None = fact(
+    read_words: Limit | None = option("words that one 03H may read", "{value: 16, source: ...}")
+    write_words: Limit | None = option("words that one request may write", "{value: 16, source: ...}")
+    group: Limit | None = option(
         "addresses of a group, counted from 0000H, that no request may cross; 256 where the high byte is the group",
         "{value: 256, source: ...}",
-        optional=True,
     )
-    data_bytes: Limit | None = fact(
-        "bytes of the data field (between function code and checksum) of an RTU frame",
-        "{value: 25, source: ...}",
-        optional=True,
+    data_bytes: Limit | None = option(
+        "bytes of the data field (between function code and checksum) of an RTU frame", "{value: 25, source: ...}"
     )
-    ascii_data_bytes: Limit | None = fact(
-        "bytes of the data field of an ASCII frame, each sent as two characters",
-        "{value: 16, source: ...}",
-        optional=True,
+    ascii_data_bytes: Limit | None = option(
+        "bytes of the data field of an ASCII frame, each sent as two characters", "{value: 16, source: ...}"
     )
 
 
@@ -497,13 +470,11 @@ class Function(Named):
 
     code: Number = fact("function code", "03H")
     source: English = fact("where the manual says so", "RTU frame structure")
-    document: Word | None = fact(_SAYS_SO, "fieldbus_guide", optional=True)
-    sub_functions: tuple[SubFunction, ...] = fact(
-        "sub-functions of 08H", "[{code: 0000H, name: ..., zh: ...}]", optional=True, default=()
+    document: Word | None = option(_SAYS_SO, "fieldbus_guide")
+    sub_functions: tuple[SubFunction, ...] = option(
+        "sub-functions of 08H", "[{code: 0000H, name: ..., zh: ...}]", default=()
     )
-    sent: bool = fact(
-        "`false` for a function that the manual lists and that no block sends", "false", optional=True, default=True
-    )
+    sent: bool = option("`false` for a function that the manual lists and that no block sends", "false", default=True)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -511,13 +482,13 @@ class Condition(Entry):
     """A register, or a bit of it, that must have a value."""
 
     register: Address = fact("the register", "000FH")
-    bit: Bits | None = fact("the bit or bits; left out for the whole word", "0", optional=True)
-    mask: Number | None = fact(
-        "bits that count, where they are not side by side; the value is in their place", "006FH", optional=True
+    bit: Bits | None = option("the bit or bits; left out for the whole word", "0")
+    mask: Number | None = option(
+        "bits that count, where they are not side by side; the value is in their place", "006FH"
     )
     equals: Number = fact("the value", "0")
-    differs: bool | None = fact(
-        "in a status: it holds while the value is any other, such as a fault code that is not 0", "true", optional=True
+    differs: bool | None = option(
+        "in a status: it holds while the value is any other, such as a fault code that is not 0", "true"
     )
 
 
@@ -528,7 +499,7 @@ class OtherScale(Entry):
     factor: Factor = fact("engineering units per count", "0.1")
     when: Condition = fact("holds only while this is true", "{register: 211FH, bit: 8-F, equals: 1}")
     source: English = fact("where the manual states or proves it", "table of monitors, 211FH")
-    document: Word | None = fact(_SAYS_SO, "fieldbus_guide", optional=True)
+    document: Word | None = option(_SAYS_SO, "fieldbus_guide")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -537,23 +508,19 @@ class Scale(Entry):
 
     factor: Factor = fact("engineering units per count", "0.01")
     source: English = fact("where the manual states or proves it", "000FH bit 0")
-    document: Word | None = fact(_SAYS_SO, "fieldbus_guide", optional=True)
-    when: Condition | None = fact(
-        "holds only while this is true", "{register: 000FH, bit: 0, equals: 0}", optional=True
-    )
-    otherwise: tuple[OtherScale, ...] = fact(
+    document: Word | None = option(_SAYS_SO, "fieldbus_guide")
+    when: Condition | None = option("holds only while this is true", "{register: 000FH, bit: 0, equals: 0}")
+    otherwise: tuple[OtherScale, ...] = option(
         "the other factors of a measure, each with what it holds for; no two conditions may hold at once, and where "
         "none does the measure is not valid; simulated drives have the first",
         "[{factor: 0.1, when: {register: 211FH, bit: 8-F, equals: 1}, source: ...}]",
-        optional=True,
         default=(),
     )
-    needs: Switch | None = fact(
+    needs: Switch | None = option(
         "holds only while a keypad setting, which then is needed so, has a value: a choice of decimals or of a unit",
         "{setting: H5-05, value: 0}",
-        optional=True,
     )
-    proof: Word | None = fact("id of the example frame that proves it", "read_frequency_reply", optional=True)
+    proof: Word | None = option("id of the example frame that proves it", "read_frequency_reply")
 
     @property
     def choices(self) -> "tuple[Scale | OtherScale, ...]":
@@ -570,8 +537,8 @@ class Scale(Entry):
 class PrintedBit(Entry):
     """How the manual prints a bit, where that is wrong."""
 
-    bit: Str | None = fact("the bit column as printed", "F", optional=True)
-    id: Str | None = fact("the id as printed", "EV", optional=True)
+    bit: Str | None = option("the bit column as printed", "F")
+    id: Str | None = option("the id as printed", "EV")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -579,33 +546,30 @@ class Bit(Worded, Entry):
     """A bit, a field of bits, or a hole in a word."""
 
     bit: Bits = fact("bit number in hexadecimal, or a range for a field or a hole", "8-F")
-    name: English | None = fact("English name; left out for a hole", "Running", optional=True)
-    zh: Str | None = fact(_CHINESE, '"1: 运行中"', optional=True)
-    zh_used: Str | None = fact("the wording to show, where `zh` holds a misprint", "超速", optional=True)
-    short: Short | None = fact("shorter wordings, where a text is longer than 80 bytes", "{zh: ...}", optional=True)
-    wording: Str | None = fact(_WORDING, '"1: In Betrieb"', optional=True)
-    id: Str | None = fact("the manual's short id, such as a fault's", "UV1", optional=True)
-    unused: bool = fact("the manual says that the bit is not used", "true", optional=True, default=False)
-    does: tuple[Act, ...] = fact(
+    name: English | None = option("English name; left out for a hole", "Running")
+    zh: Str | None = option(_CHINESE, '"1: 运行中"')
+    zh_used: Str | None = option("the wording to show, where `zh` holds a misprint", "超速")
+    short: Short | None = option("shorter wordings, where a text is longer than 80 bytes", "{zh: ...}")
+    wording: Str | None = option(_WORDING, '"1: In Betrieb"')
+    id: Str | None = option("the manual's short id, such as a fault's", "UV1")
+    unused: bool = option("the manual says that the bit is not used", "true", default=False)
+    does: tuple[Act, ...] = option(
         "of a command register, what the bit does to the motor at 1, or a field at any value but 0 that does not say "
         f"it itself; {_ACTS}; left out, it counts as starting",
         "[starts]",
-        optional=True,
         default=(),
     )
-    at_0: tuple[Act, ...] = fact("what it does at 0, as above; by its level", "[coasts]", optional=True, default=())
-    by: By | None = fact(_BY, "edge", optional=True)
-    holds: bool = fact(_HOLDS, "true", optional=True, default=False)
-    values: tuple[Value, ...] = fact(
-        "meaning of each value of a field, or of 0 and 1", "[{value: 0, name: ..., zh: ...}]", optional=True, default=()
+    at_0: tuple[Act, ...] = option("what it does at 0, as above; by its level", "[coasts]", default=())
+    by: By | None = option(_BY, "edge")
+    holds: bool = option(_HOLDS, "true", default=False)
+    values: tuple[Value, ...] = option(
+        "meaning of each value of a field, or of 0 and 1", "[{value: 0, name: ..., zh: ...}]", default=()
     )
-    printed: PrintedBit | None = fact("what the manual prints instead (needs an erratum)", "{bit: F}", optional=True)
-    symbol: Symbol | None = fact(
-        "identifier in Structured Text, where the one made from the name is too long or taken",
-        "InputTerminals",
-        optional=True,
+    printed: PrintedBit | None = option("what the manual prints instead (needs an erratum)", "{bit: F}")
+    symbol: Symbol | None = option(
+        "identifier in Structured Text, where the one made from the name is too long or taken", "InputTerminals"
     )
-    note: English | None = fact("what else a person must know", "terminals 9 and 10", optional=True)
+    note: English | None = option("what else a person must know", "terminals 9 and 10")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -630,8 +594,8 @@ class Never(Entry):
 class PrintedRow(Entry):
     """How the manual prints a register's row, where that is wrong."""
 
-    address: Str | None = fact("the address as printed", "0210H", optional=True)
-    id: Str | None = fact("the id as printed", "B5-05", optional=True)
+    address: Str | None = option("the address as printed", "0210H")
+    id: Str | None = option("the id as printed", "B5-05")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -639,67 +603,54 @@ class Register(Worded, Entry):
     """One row of a register table: a register, or a run of registers that one row describes."""
 
     address: Addresses = fact("wire address, zero-based, or a range", "0026H")
-    id: Id | None = fact("the manual's parameter id, or a range of ids", "U1-07", optional=True)
-    name: English | None = fact(
-        "English name; left out where the manual gives no name", "DC bus voltage", optional=True
-    )
-    zh: Str | None = fact(_CHINESE, "直流电压", optional=True)
-    zh_used: Str | None = fact(
-        "the wording to show, where `zh` holds a misprint (needs an erratum)", "输出功率", optional=True
-    )
-    wording: Str | None = fact(_WORDING, "Zwischenkreisspannung", optional=True)
-    access: Access | None = fact(
+    id: Id | None = option("the manual's parameter id, or a range of ids", "U1-07")
+    name: English | None = option("English name; left out where the manual gives no name", "DC bus voltage")
+    zh: Str | None = option(_CHINESE, "直流电压")
+    zh_used: Str | None = option("the wording to show, where `zh` holds a misprint (needs an erratum)", "输出功率")
+    wording: Str | None = option(_WORDING, "Zwischenkreisspannung")
+    access: Access | None = option(
         "overrides the section's access; where something else is read at an address than is written, it has a row with "
         "`r` and one with `w`",
         "r",
-        optional=True,
     )
-    unused: bool = fact("the manual says that the address is not used", "true", optional=True, default=False)
-    unit: Unit | None = fact("unit of the engineering value", "Hz", optional=True)
-    scale: Scale | None = fact("factor of the engineering value", "{factor: 0.1, source: ...}", optional=True)
-    space: Space | None = fact("overrides the section's `space`", "input", optional=True)
-    words: Literal[2] | None = fact(
-        "2: each value has 32 bits in two registers, and is named by the first; the address is a range",
-        "2",
-        optional=True,
+    unused: bool = option("the manual says that the address is not used", "true", default=False)
+    unit: Unit | None = option("unit of the engineering value", "Hz")
+    scale: Scale | None = option("factor of the engineering value", "{factor: 0.1, source: ...}")
+    space: Space | None = option("overrides the section's `space`", "input")
+    words: Literal[2] | None = option(
+        "2: each value has 32 bits in two registers, and is named by the first; the address is a range", "2"
     )
-    order: Literal["high_first", "low_first"] | None = fact(
-        "of 32 bits, the word that the first register holds; left out, the high one", "low_first", optional=True
+    order: Literal["high_first", "low_first"] | None = option(
+        "of 32 bits, the word that the first register holds; left out, the high one", "low_first"
     )
-    signed: bool = fact("the value is a two's complement number", "true", optional=True, default=False)
-    range: Range | None = fact("allowed raw values", "{min: -10000, max: 10000}", optional=True)
-    values: tuple[Value, ...] = fact(
-        "meaning of each value of the word", "[{value: 1, name: ..., zh: ...}]", optional=True, default=()
+    signed: bool = option("the value is a two's complement number", "true", default=False)
+    range: Range | None = option("allowed raw values", "{min: -10000, max: 10000}")
+    values: tuple[Value, ...] = option(
+        "meaning of each value of the word", "[{value: 1, name: ..., zh: ...}]", default=()
     )
-    masks: bool = fact(
-        "the values are single bits; the manual does not say whether they combine", "true", optional=True, default=False
+    masks: bool = option(
+        "the values are single bits; the manual does not say whether they combine", "true", default=False
     )
-    does: tuple[Act, ...] = fact(
+    does: tuple[Act, ...] = option(
         "of a command register without values and bits, what any value but 0 does to the motor, as in [Bit](#bit)",
         "[resets]",
-        optional=True,
         default=(),
     )
-    bits: tuple[Bit, ...] = fact("bits of the word", "[{bit: 0, name: Running, zh: 运行中}]", optional=True, default=())
-    never: tuple[Never, ...] = fact(
+    bits: tuple[Bit, ...] = option("bits of the word", "[{bit: 0, name: Running, zh: 运行中}]", default=())
+    never: tuple[Never, ...] = option(
         "what is never written to a command register: no command writes it, and `KeepWord` reaches none of its bits",
         "[{bit: 4-5, equals: 3, why: ...}]",
-        optional=True,
         default=(),
     )
-    printed: PrintedRow | None = fact(
-        "what the manual prints instead (needs an erratum)", "{address: 0210H}", optional=True
+    printed: PrintedRow | None = option("what the manual prints instead (needs an erratum)", "{address: 0210H}")
+    symbol: Symbol | None = option(
+        "identifier in Structured Text, where the one made from the name is too long or taken", "InputTerminals"
     )
-    symbol: Symbol | None = fact(
-        "identifier in Structured Text, where the one made from the name is too long or taken",
-        "InputTerminals",
-        optional=True,
-    )
-    note: English | None = fact("what else a person must know", "write 0 to store", optional=True)
-    source: English | None = fact("overrides the section's source", "page 9", optional=True)
-    document: Word | None = fact(_SAYS_SO, "fieldbus_guide", optional=True)
-    corroborated: tuple[Corroboration, ...] = fact(
-        "other documents on this", "[{document: ..., page: ..., reads: ...}]", optional=True, default=()
+    note: English | None = option("what else a person must know", "write 0 to store")
+    source: English | None = option("overrides the section's source", "page 9")
+    document: Word | None = option(_SAYS_SO, "fieldbus_guide")
+    corroborated: tuple[Corroboration, ...] = option(
+        "other documents on this", "[{document: ..., page: ..., reads: ...}]", default=()
     )
 
     @property
@@ -719,7 +670,7 @@ class Series(Entry):
 
     ids: Id = fact("first and last id", "U1-01..U1-28")
     base: Address = fact("address of the first id", "0020H")
-    apart: tuple[Id, ...] = fact("ids that the manual places elsewhere", "[C3-05]", optional=True, default=())
+    apart: tuple[Id, ...] = option("ids that the manual places elsewhere", "[C3-05]", default=())
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -729,25 +680,23 @@ class Section(Entry):
     id: Word = fact("short name", "monitors_u1")
     title: Text = fact("heading of the table", "{en: U1 monitors, zh: U1-XX 监测具体内容寄存器}")
     source: English = fact("where it is in the manual", "section (II)")
-    document: Word | None = fact(_SAYS_SO, "fieldbus_guide", optional=True)
+    document: Word | None = option(_SAYS_SO, "fieldbus_guide")
     access: Access = fact("how its registers may be used: r, w or rw", "r")
-    space: Space | None = fact(
+    space: Space | None = option(
         "the table of Modbus that its registers are in: `holding` registers (read by 03H), `input` registers (04H), "
         "`coil`s (read by 01H, written by 05H) or `discrete` inputs (02H); a coil is a register whose value is 0 or 1. "
         "Elsewhere the table is named before the address, as in `register: coil 0001H`",
         "coil",
-        optional=True,
     )
     registers: tuple[Register, ...] = fact(
         "the rows, in the manual's order", "[{address: 0020H, id: U1-01, name: ..., zh: ...}]"
     )
-    series: tuple[Series, ...] = fact(
+    series: tuple[Series, ...] = option(
         "ids whose addresses follow each other; every row is checked against them",
         "[{ids: U1-01..U1-28, base: 0020H}]",
-        optional=True,
         default=(),
     )
-    note: English | None = fact("what else a person must know", "rows are printed out of order", optional=True)
+    note: English | None = option("what else a person must know", "rows are printed out of order")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -775,12 +724,12 @@ class Area(Named):
     numbered_by: Literal["sequence_number", "parameter_number"] = fact("what the number is", "sequence_number")
     access: Access = fact("r, w or rw", "rw")
     source: English = fact("where it is in the manual", "11.6.4 (1)")
-    document: Word | None = fact(_SAYS_SO, "fieldbus_guide", optional=True)
+    document: Word | None = option(_SAYS_SO, "fieldbus_guide")
     examples: tuple[AreaExample, ...] = fact("the manual's examples", "[{id: P5.05, number: 58, address: 003AH}]")
-    excluded: tuple[Excluded, ...] = fact(
-        "parameters that must not be read or written", "[{ids: PE, name: ..., zh: ...}]", optional=True, default=()
+    excluded: tuple[Excluded, ...] = option(
+        "parameters that must not be read or written", "[{ids: PE, name: ..., zh: ...}]", default=()
     )
-    note: English | None = fact("what else a person must know", "...", optional=True)
+    note: English | None = option("what else a person must know", "...")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -803,24 +752,20 @@ class Storage(Entry):
         "enter_register",
     )
     source: English = fact("where the manual says so", "section (VI)")
-    document: Word | None = fact(_SAYS_SO, "fieldbus_guide", optional=True)
+    document: Word | None = option(_SAYS_SO, "fieldbus_guide")
     note: English = fact("the rule in one or two sentences", "ENTER stores all parameters")
-    register: Address | None = fact("enter_register: the register to write", "FFFDH", optional=True)
-    value: Number | None = fact(
-        "enter_register: the word to write; where one bit stores, with the others as they must be", "0", optional=True
+    register: Address | None = option("enter_register: the register to write", "FFFDH")
+    value: Number | None = option(
+        "enter_register: the word to write; where one bit stores, with the others as they must be", "0"
     )
-    max_writes: Writes | None = fact("how often the memory can be written", "100000", optional=True)
-    add: Address | None = fact("ram_address_bit: what to add to an address", "8000H", optional=True)
-    area: Word | None = fact(
-        "ram_address_bit: the only area, or section, where it may be added", "function_codes", optional=True
+    max_writes: Writes | None = option("how often the memory can be written", "100000")
+    add: Address | None = option("ram_address_bit: what to add to an address", "8000H")
+    area: Word | None = option("ram_address_bit: the only area, or section, where it may be added", "function_codes")
+    twins: tuple[Twin, ...] = option(
+        "ram_twin: the registers that are there twice", "[{stored: 000EH, ram: 000DH}]", default=()
     )
-    twins: tuple[Twin, ...] = fact(
-        "ram_twin: the registers that are there twice", "[{stored: 000EH, ram: 000DH}]", optional=True, default=()
-    )
-    ram_when: Switch | None = fact(
-        "by_setting: the setting, and its value for RAM", "{setting: H5-05, value: 0}", optional=True
-    )
-    readable: bool = fact("ram_address_bit: whether such an address may be read", "false", optional=True, default=True)
+    ram_when: Switch | None = option("by_setting: the setting, and its value for RAM", "{setting: H5-05, value: 0}")
+    readable: bool = option("ram_address_bit: whether such an address may be read", "false", default=True)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -828,13 +773,13 @@ class Step(Entry):
     """One write on the way to a command's own, and what the next one waits for."""
 
     register: Address = fact("register that is written", "2000H")
-    value: Number | None = fact("the whole word", "0006H", optional=True)
-    set: tuple[Bits, ...] = fact("bits to set, others kept", "[3]", optional=True, default=())
-    clear: tuple[Bits, ...] = fact("bits to clear, others kept", "[4]", optional=True, default=())
-    until: Word | None = fact("state that the drive must show before the next write", "switched_on", optional=True)
-    for_ms: Count | None = fact("how long the word stays before the next write, for a pulse, ms", "100", optional=True)
-    silent_ms: Count | None = fact(
-        "fault_reset: how long the drive answers nothing once it has answered this write, ms", "1000", optional=True
+    value: Number | None = option("the whole word", "0006H")
+    set: tuple[Bits, ...] = option("bits to set, others kept", "[3]", default=())
+    clear: tuple[Bits, ...] = option("bits to clear, others kept", "[4]", default=())
+    until: Word | None = option("state that the drive must show before the next write", "switched_on")
+    for_ms: Count | None = option("how long the word stays before the next write, for a pulse, ms", "100")
+    silent_ms: Count | None = option(
+        "fault_reset: how long the drive answers nothing once it has answered this write, ms", "1000"
     )
 
 
@@ -847,32 +792,29 @@ class Command(Entry):
 
     does: Does = fact("what it does", "run_forward")
     register: Address = fact("command register", "1000H")
-    value: Number | None = fact("the whole word", "1", optional=True)
-    set: tuple[Bits, ...] = fact("bits to set, others kept", "[0]", optional=True, default=())
-    clear: tuple[Bits, ...] = fact("bits to clear, others kept", "[1]", optional=True, default=())
-    first: tuple[Step, ...] = fact(
+    value: Number | None = option("the whole word", "1")
+    set: tuple[Bits, ...] = option("bits to set, others kept", "[0]", default=())
+    clear: tuple[Bits, ...] = option("bits to clear, others kept", "[1]", default=())
+    first: tuple[Step, ...] = option(
         "writes that are sent before it, in this order: states, an edge, a pulse, another register; a stop has none",
         "[{register: 2000H, value: 0006H, until: ready_to_switch_on}]",
-        optional=True,
         default=(),
     )
-    silent_ms: Count | None = fact(
-        "fault_reset: how long the drive answers nothing once it has answered this write, ms", "1000", optional=True
+    silent_ms: Count | None = option(
+        "fault_reset: how long the drive answers nothing once it has answered this write, ms", "1000"
     )
-    because: English | None = fact(
+    because: English | None = option(
         "the manual's reason, in a sentence, where its table of bits or values does not tell it",
         "section 3 says that writing 0 stops the motor by its ramp",
-        optional=True,
     )
-    negative: bool = fact(
+    negative: bool = option(
         "run_reverse of a drive without such a command: it writes what run_forward does, and the reference is negative",
         "true",
-        optional=True,
         default=False,
     )
     source: English = fact("where the manual says so", "section (I), 0000H")
-    document: Word | None = fact(_SAYS_SO, "fieldbus_guide", optional=True)
-    note: English | None = fact("what else a person must know", "bits 2 to 7 are terminals and are kept", optional=True)
+    document: Word | None = option(_SAYS_SO, "fieldbus_guide")
+    note: English | None = option("what else a person must know", "bits 2 to 7 are terminals and are kept")
 
     @property
     def writes(self) -> tuple["Command | Step", ...]:
@@ -891,21 +833,17 @@ class Reference(Entry):
         "frequency",
     )
     source: English = fact("where the manual says so", "section (I), 0001H")
-    document: Word | None = fact(_SAYS_SO, "fieldbus_guide", optional=True)
-    maximum: Id | None = fact("parameter that holds the 100 % value", "P0.04", optional=True)
-    full_scale: Number | None = fact("fraction_of_full_scale: the word that is 100 %", "4000H", optional=True)
-    full_scale_hz: Factor | None = fact(
+    document: Word | None = option(_SAYS_SO, "fieldbus_guide")
+    maximum: Id | None = option("parameter that holds the 100 % value", "P0.04")
+    full_scale: Number | None = option("fraction_of_full_scale: the word that is 100 %", "4000H")
+    full_scale_hz: Factor | None = option(
         "fraction_of_full_scale: what 100 % is in Hz, where no parameter holds it and the manual gives it for good",
         "50",
-        optional=True,
     )
-    negative_reverses: bool = fact(
-        "a negative reference turns the motor the other way", "true", optional=True, default=False
-    )
-    verify: tuple[Condition, ...] = fact(
+    negative_reverses: bool = option("a negative reference turns the motor the other way", "true", default=False)
+    verify: tuple[Condition, ...] = option(
         "what must be read back before the reference means what it says",
         "[{register: 000FH, bit: 0, equals: 0}]",
-        optional=True,
         default=(),
     )
 
@@ -916,7 +854,7 @@ class Standstill(Entry):
 
     all: tuple[Condition, ...] = fact("the conditions", "[{register: 0010H, bit: 0, equals: 0}]")
     source: English = fact("where the manual says so", "section (I), 0010H; U1-02")
-    document: Word | None = fact(_SAYS_SO, "fieldbus_guide", optional=True)
+    document: Word | None = option(_SAYS_SO, "fieldbus_guide")
     why: English = fact("why this proves it", "status and frequency both say so")
 
 
@@ -926,7 +864,7 @@ class InCommand(Entry):
 
     all: tuple[Condition, ...] = fact("the conditions", "[{register: 0C81H, bit: 9, equals: 1}]")
     source: English = fact("where the manual says so", "table of the status word")
-    document: Word | None = fact(_SAYS_SO, "fieldbus_guide", optional=True)
+    document: Word | None = option(_SAYS_SO, "fieldbus_guide")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -935,7 +873,7 @@ class OwnMaximum(Entry):
 
     register: Address = fact("the register", "0303H")
     source: English = fact("where the manual says so", "table of parameters, E1-04")
-    document: Word | None = fact(_SAYS_SO, "fieldbus_guide", optional=True)
+    document: Word | None = option(_SAYS_SO, "fieldbus_guide")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -944,10 +882,10 @@ class State(Entry):
 
     name: Word = fact("its name, by which steps wait for it", "switched_on")
     register: Address = fact("the status word", "2100H")
-    mask: Number | None = fact("bits that count; left out for the whole word", "006FH", optional=True)
+    mask: Number | None = option("bits that count; left out for the whole word", "006FH")
     equals: Number = fact("their value, in their place", "0023H")
     source: English = fact("where the manual says so", "section 5, table of states")
-    document: Word | None = fact(_SAYS_SO, "fieldbus_guide", optional=True)
+    document: Word | None = option(_SAYS_SO, "fieldbus_guide")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -957,7 +895,7 @@ class Status(Entry):
     shows: Shows = fact("the pin", "running")
     any: tuple[Condition, ...] = fact("the conditions", "[{register: 0010H, bit: 0, equals: 1}]")
     source: English = fact("where the manual says so", "section (I), 0010H")
-    document: Word | None = fact(_SAYS_SO, "fieldbus_guide", optional=True)
+    document: Word | None = option(_SAYS_SO, "fieldbus_guide")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -971,7 +909,7 @@ class Measured(Entry):
         "0022H",
     )
     source: English = fact("where the manual says so", "section (II), U1-03")
-    document: Word | None = fact(_SAYS_SO, "fieldbus_guide", optional=True)
+    document: Word | None = option(_SAYS_SO, "fieldbus_guide")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -980,7 +918,7 @@ class Identity(Entry):
 
     all: tuple[Condition, ...] = fact("the conditions", "[{register: 0010H, equals: 1205H}]")
     source: English = fact("where the manual says so", "table of device data, product code")
-    document: Word | None = fact(_SAYS_SO, "fieldbus_guide", optional=True)
+    document: Word | None = option(_SAYS_SO, "fieldbus_guide")
     why: English = fact("why no other drive answers so", "the maker gives each family a code of its own")
 
 
@@ -988,18 +926,18 @@ class Identity(Entry):
 class SilenceTime(Entry):
     """After how much silence the watchdog acts: a keypad setting or a register, and what one count of it is."""
 
-    setting: Id | None = fact("the keypad setting that holds it", "P14.04", optional=True)
-    register: Address | None = fact("the register that holds it, where it is no keypad setting", "0000H", optional=True)
+    setting: Id | None = option("the keypad setting that holds it", "P14.04")
+    register: Address | None = option("the register that holds it, where it is no keypad setting", "0000H")
     milliseconds: Factor = fact("how long one count is, ms", "100")
     source: English = fact("where the manual says so", "table of communication parameters")
-    document: Word | None = fact(_SAYS_SO, "fieldbus_guide", optional=True)
+    document: Word | None = option(_SAYS_SO, "fieldbus_guide")
 
 
 @dataclass(frozen=True, kw_only=True)
 class Reaction(Entry):
     """What the drive does when its line is silent, for one value of the setting that chooses it."""
 
-    value: Number | None = fact("value of the setting; left out where none chooses", "0", optional=True)
+    value: Number | None = option("value of the setting; left out where none chooses", "0")
     does: Reacts = fact("what the drive does", "coast_stop")
 
 
@@ -1007,26 +945,23 @@ class Reaction(Entry):
 class Watchdog(Entry):
     """The drive's own watchdog of a silent line: what feeds it, when it acts, and what it then does."""
 
-    feeds: Feed | None = fact(
+    feeds: Feed | None = option(
         "what it takes for a sign of life: a read, a written reference, a written run command, or any good frame; left "
         "out where the manual does not say",
         "reference",
-        optional=True,
     )
-    time: SilenceTime | None = fact(
-        "after how much silence it acts", "{setting: P14.04, milliseconds: 100, source: ...}", optional=True
+    time: SilenceTime | None = option(
+        "after how much silence it acts", "{setting: P14.04, milliseconds: 100, source: ...}"
     )
-    disabled_by: Switch | None = fact("what switches it off", "{setting: H5-05, value: 0}", optional=True)
-    chosen_by: Id | None = fact("the keypad setting that chooses what it does", "H5-04", optional=True)
+    disabled_by: Switch | None = option("what switches it off", "{setting: H5-05, value: 0}")
+    chosen_by: Id | None = option("the keypad setting that chooses what it does", "H5-04")
     reactions: tuple[Reaction, ...] = fact(
         "what the drive does, by value of that setting", "[{value: 0, does: stop}, {value: 3, does: runs_on}]"
     )
-    fault: Number | None = fact("code of the fault that it shows", "21H", optional=True)
+    fault: Number | None = option("code of the fault that it shows", "21H")
     source: English = fact("where the manual says so", "table of communication parameters")
-    document: Word | None = fact(_SAYS_SO, "fieldbus_guide", optional=True)
-    note: English | None = fact(
-        "what else a person must know", "the motor does not start again by itself", optional=True
-    )
+    document: Word | None = option(_SAYS_SO, "fieldbus_guide")
+    note: English | None = option("what else a person must know", "the motor does not start again by itself")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -1042,28 +977,21 @@ class Operation(Entry):
         "what the pins of the drive block show; `running` is a must",
         "[{shows: running, any: [{register: 0010H, bit: 0, equals: 1}], source: ...}]",
     )
-    measures: tuple[Measured, ...] = fact(
-        "registers whose values pins show",
-        "[{shows: output_frequency, register: 0021H, source: ...}]",
-        optional=True,
-        default=(),
+    measures: tuple[Measured, ...] = option(
+        "registers whose values pins show", "[{shows: output_frequency, register: 0021H, source: ...}]", default=()
     )
-    states: tuple[State, ...] = fact(
+    states: tuple[State, ...] = option(
         "named states that steps wait for",
         "[{name: switched_on, register: 2100H, mask: 006FH, equals: 0023H, ...}]",
-        optional=True,
         default=(),
     )
-    commanded_by: InCommand | None = fact(
-        "what says that the bus is in command",
-        "{all: [{register: 0C81H, bit: 9, equals: 1}], source: ...}",
-        optional=True,
+    commanded_by: InCommand | None = option(
+        "what says that the bus is in command", "{all: [{register: 0C81H, bit: 9, equals: 1}], source: ...}"
     )
-    own_maximum: OwnMaximum | None = fact(
+    own_maximum: OwnMaximum | None = option(
         "the register of the drive's own maximum frequency, or of what 100 % of the reference is, where its scale is "
         "known, too",
         "{register: 0303H, source: ...}",
-        optional=True,
     )
 
     @property
@@ -1097,10 +1025,10 @@ class Fault(Returned):
     """One fault code, or one warning code."""
 
     code: Number = fact("the number that the drive reports", "1EH")
-    id: Str | None = fact("the drive's short display", "OPR", optional=True)
-    printed_code: Str | None = fact("the code as printed, where that is wrong (needs an erratum)", "OEF", optional=True)
-    document: Word | None = fact(_SAYS_SO, "fieldbus_guide", optional=True)
-    note: English | None = fact("what else a person must know", "...", optional=True)
+    id: Str | None = option("the drive's short display", "OPR")
+    printed_code: Str | None = option("the code as printed, where that is wrong (needs an erratum)", "OEF")
+    document: Word | None = option(_SAYS_SO, "fieldbus_guide")
+    note: English | None = option("what else a person must know", "...")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -1112,9 +1040,9 @@ class TripOutput(Entry):
         "coasts",
     )
     source: English = fact("where the manual says so", "table of faults, column of the response")
-    document: Word | None = fact(_SAYS_SO, "fieldbus_guide", optional=True)
-    note: English | None = fact(
-        "what else a person must know; a must with `differs`", "a fault of the fan ramps down", optional=True
+    document: Word | None = option(_SAYS_SO, "fieldbus_guide")
+    note: English | None = option(
+        "what else a person must know; a must with `differs`", "a fault of the fan ramps down"
     )
 
 
@@ -1123,25 +1051,19 @@ class Faults(Entry):
     """Fault codes and the registers that report them."""
 
     source: English = fact("where the table is", "section (IV), table of fault numbers")
-    document: Word | None = fact(_SAYS_SO, "fieldbus_guide", optional=True)
+    document: Word | None = option(_SAYS_SO, "fieldbus_guide")
     registers: tuple[Addresses, ...] = fact("registers that hold a fault code", "[0080H, 0090H-0093H]")
-    present: Address | None = fact(
-        "the one that holds the fault that is present, where `bits` do not show it", "3000H", optional=True
+    present: Address | None = option(
+        "the one that holds the fault that is present, where `bits` do not show it", "3000H"
     )
-    present_bits: Bits | None = fact(
-        "the bits of that register which hold the code, where the others hold something else, such as a warning",
-        "0-7",
-        optional=True,
+    present_bits: Bits | None = option(
+        "the bits of that register which hold the code, where the others hold something else, such as a warning", "0-7"
     )
-    codes: tuple[Fault, ...] = fact(
-        "the codes, in the manual's order", "[{code: 01H, id: FU, name: ..., zh: ...}]", optional=True, default=()
+    codes: tuple[Fault, ...] = option(
+        "the codes, in the manual's order", "[{code: 01H, id: FU, name: ..., zh: ...}]", default=()
     )
-    bits: BitRelation | None = fact(
-        "relation of codes to fault bits", "{first: 0014H, last: 0016H, source: ...}", optional=True
-    )
-    trip_output: TripOutput | None = fact(
-        "what becomes of the motor in a trip", "{motor: coasts, source: ...}", optional=True
-    )
+    bits: BitRelation | None = option("relation of codes to fault bits", "{first: 0014H, last: 0016H, source: ...}")
+    trip_output: TripOutput | None = option("what becomes of the motor in a trip", "{motor: coasts, source: ...}")
 
     def code_in(self, address: int, word: int) -> int:
         """The code in a word of a register that reports faults."""
@@ -1154,12 +1076,10 @@ class Warnings(Entry):
     """Warning codes and the register that reports them."""
 
     source: English = fact("where the table is", "table of warnings")
-    document: Word | None = fact(_SAYS_SO, "fieldbus_guide", optional=True)
+    document: Word | None = option(_SAYS_SO, "fieldbus_guide")
     register: Address = fact("the register that holds the code of the present warning, 0 for none", "2100H")
-    bits: Bits | None = fact(
-        "the bits of it which hold the code, where the others hold something else, such as a fault",
-        "8-F",
-        optional=True,
+    bits: Bits | None = option(
+        "the bits of it which hold the code, where the others hold something else, such as a fault", "8-F"
     )
     codes: tuple[Fault, ...] = fact("the codes, in the manual's order", "[{code: 01H, id: CE1, name: ..., zh: ...}]")
 
@@ -1183,11 +1103,11 @@ class ErrorForm(Entry):
         "exception",
     )
     source: English = fact("where the manual says so", "error replies")
-    add: Number | None = fact("exception: what is added to the function code", "80H", optional=True)
-    function: Number | None = fact("write_reply: the function code, whatever was asked", "06H", optional=True)
-    address: Address | None = fact("write_reply: the address", "5001H", optional=True)
-    corroborated: tuple[Corroboration, ...] = fact(
-        "other documents on this", "[{document: ..., page: ..., reads: ...}]", optional=True, default=()
+    add: Number | None = option("exception: what is added to the function code", "80H")
+    function: Number | None = option("write_reply: the function code, whatever was asked", "06H")
+    address: Address | None = option("write_reply: the address", "5001H")
+    corroborated: tuple[Corroboration, ...] = option(
+        "other documents on this", "[{document: ..., page: ..., reads: ...}]", default=()
     )
 
 
@@ -1195,15 +1115,13 @@ class ErrorForm(Entry):
 class ErrorCode(Returned):
     """One reason for a refusal."""
 
-    code: Number | None = fact("the code; left out where the manual prints none", "21H", optional=True)
-    meaning: Text | None = fact("the manual's explanation", "{en: ..., zh: ...}", optional=True)
-    causes: tuple[Text, ...] = fact("the manual's list of causes", "[{en: ..., zh: ...}]", optional=True, default=())
-    busy: bool = fact(
-        "the drive cannot do it now; the same request may be sent again", "true", optional=True, default=False
-    )
-    note: English | None = fact("what else a person must know", "...", optional=True)
-    corroborated: tuple[Corroboration, ...] = fact(
-        "other documents on this", "[{document: ..., page: ..., reads: ..., value: 1}]", optional=True, default=()
+    code: Number | None = option("the code; left out where the manual prints none", "21H")
+    meaning: Text | None = option("the manual's explanation", "{en: ..., zh: ...}")
+    causes: tuple[Text, ...] = option("the manual's list of causes", "[{en: ..., zh: ...}]", default=())
+    busy: bool = option("the drive cannot do it now; the same request may be sent again", "true", default=False)
+    note: English | None = option("what else a person must know", "...")
+    corroborated: tuple[Corroboration, ...] = option(
+        "other documents on this", "[{document: ..., page: ..., reads: ..., value: 1}]", default=()
     )
 
 
@@ -1211,11 +1129,9 @@ class ErrorCode(Returned):
 class Errors(Entry):
     """How the drive refuses a request."""
 
-    form: ErrorForm | None = fact(
-        "what a refusal looks like", "{kind: exception, add: 80H, source: ...}", optional=True
-    )
+    form: ErrorForm | None = option("what a refusal looks like", "{kind: exception, add: 80H, source: ...}")
     source: English = fact("where the table is", "meaning of error codes")
-    document: Word | None = fact(_SAYS_SO, "fieldbus_guide", optional=True)
+    document: Word | None = option(_SAYS_SO, "fieldbus_guide")
     codes: tuple[ErrorCode, ...] = fact("the reasons, in the manual's order", "[{code: 01H, name: ..., zh: ...}]")
 
 
@@ -1226,8 +1142,8 @@ class Notice(Entry):
     kind: Literal["prohibition", "warning", "hazard", "procedure"] = fact("what it is", "prohibition")
     text: Text = fact("the text; the Chinese as printed", "{en: ..., zh: ...}")
     source: English = fact("where it is", "notes (2)")
-    about: tuple[Ref, ...] = fact("what it is about", "[register FFFDH]", optional=True, default=())
-    note: English | None = fact("what to make of it", "this hides a lost line", optional=True)
+    about: tuple[Ref, ...] = option("what it is about", "[register FFFDH]", default=())
+    note: English | None = option("what to make of it", "this hides a lost line")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -1246,15 +1162,15 @@ class Means(Entry):
     says: English = fact("in one sentence", "reads 2 words from 0026H")
     unit: Number = fact("unit address", "1")
     function: Number = fact("function code", "03H")
-    address: Address | None = fact("register address", "0026H", optional=True)
-    words: Number | None = fact("number of words", "2", optional=True)
-    byte_count: Number | None = fact("byte count field", "4", optional=True)
-    values: tuple[Number, ...] = fact("words carried, in order", "[500]", optional=True, default=())
-    sub_function: Number | None = fact("sub-function of 08H", "0000H", optional=True)
-    data: Number | None = fact("data word of 08H", "12ABH", optional=True)
-    error: Number | None = fact("error code", "5", optional=True)
-    quantities: tuple[Quantity, ...] = fact(
-        "engineering values", "[{register: 2000H, value: 50.0, unit: Hz}]", optional=True, default=()
+    address: Address | None = option("register address", "0026H")
+    words: Number | None = option("number of words", "2")
+    byte_count: Number | None = option("byte count field", "4")
+    values: tuple[Number, ...] = option("words carried, in order", "[500]", default=())
+    sub_function: Number | None = option("sub-function of 08H", "0000H")
+    data: Number | None = option("data word of 08H", "12ABH")
+    error: Number | None = option("error code", "5")
+    quantities: tuple[Quantity, ...] = option(
+        "engineering values", "[{register: 2000H, value: 50.0, unit: Hz}]", default=()
     )
 
 
@@ -1267,8 +1183,8 @@ class PlcTable(Entry):
     registers: tuple[Annotated[str, form.REGISTER_WORD], ...] = fact(
         "contents in hexadecimal, high byte first; -- is a byte that is not sent", "[3A30, 0A--]"
     )
-    printed: tuple[Annotated[str, form.REGISTER_WORD], ...] = fact(
-        "the contents as printed, where they are wrong (needs an erratum)", "[3A30, 3631]", optional=True, default=()
+    printed: tuple[Annotated[str, form.REGISTER_WORD], ...] = option(
+        "the contents as printed, where they are wrong (needs an erratum)", "[3A30, 3631]", default=()
     )
 
 
@@ -1280,18 +1196,16 @@ class Frame(Entry):
     direction: Literal["request", "reply"] = fact("who sends it", "request")
     mode: Literal["rtu", "ascii"] = fact("framing", "rtu")
     source: English = fact("where it is", "command 03H, RTU request")
-    document: Word | None = fact(_SAYS_SO, "fieldbus_guide", optional=True)
+    document: Word | None = option(_SAYS_SO, "fieldbus_guide")
     printed: Adu = fact("as printed", "01 03 00 26 00 02 25 C0")
     checksum: Literal["right", "wrong"] = fact("verdict on the printed checksum", "right")
-    printed_checksum_of: Octets | None = fact(
-        "wrong checksum: the bytes that it does belong to, where found", "01 03 00 04", optional=True
+    printed_checksum_of: Octets | None = option(
+        "wrong checksum: the bytes that it does belong to, where found", "01 03 00 04"
     )
     correct: Adu = fact("the correct bytes", "01 03 00 26 00 02 25 C0")
-    answers: Word | None = fact("reply: id of the request that it answers", "read_dc_bus_request", optional=True)
+    answers: Word | None = option("reply: id of the request that it answers", "read_dc_bus_request")
     means: Means = fact("what it says", "{says: ..., unit: 1, function: 03H, address: 0026H, words: 2}")
-    plc: PlcTable | None = fact(
-        "the manual's table of PLC registers", "{bits: 16, first: D0, registers: [...]}", optional=True
-    )
+    plc: PlcTable | None = option("the manual's table of PLC registers", "{bits: 16, first: D0, registers: [...]}")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -1305,8 +1219,8 @@ class Erratum(Entry):
     why: English = fact("the reason", "0210H is C3-02; C7-01 is 021FH and C7-03 is 0221H")
     confidence: Literal["certain", "likely", "open"] = fact("how sure", "certain")
     measured: bool = fact("whether it was tried on a drive", "false")
-    corroborated: tuple[Corroboration, ...] = fact(
-        "other documents on this", "[{document: ..., page: ..., reads: ...}]", optional=True, default=()
+    corroborated: tuple[Corroboration, ...] = option(
+        "other documents on this", "[{document: ..., page: ..., reads: ...}]", default=()
     )
 
 
@@ -1316,14 +1230,13 @@ class OnSite(Entry):
 
     do: English = fact("what a person does first", "set the keypad to 20.0 Hz and run by the keypad, motor uncoupled")
     ask: English = fact("the question, without its mark", "which frequency does the keypad show, in Hz")
-    read: Address | None = fact("the register that is read at the answer", "3000H", optional=True)
-    gives: OpenScale | None = fact(
-        "the member of `VFD_Settings` that the answer, a number, and the register give", "FrequencyScale", optional=True
+    read: Address | None = option("the register that is read at the answer", "3000H")
+    gives: OpenScale | None = option(
+        "the member of `VFD_Settings` that the answer, a number, and the register give", "FrequencyScale"
     )
-    by_run: bool = fact(
+    by_run: bool = option(
         "only a run by the bus shows it: it is printed for `driveblocks run --allow-run`, and not asked",
         "true",
-        optional=True,
         default=False,
     )
 
@@ -1336,13 +1249,12 @@ class Absence(Entry):
     about: tuple[Ref, ...] = fact("what it is about", "[register 1001H]")
     matters: English = fact("why it matters", "a guessed scale is a tenfold overspeed")
     find_out: English = fact("how to find out", "write 500 with the motor uncoupled and read the keypad")
-    on_site: OnSite | None = fact(
+    on_site: OnSite | None = option(
         "how `driveblocks commission` closes it for one drive; at most ten of a map, six of them asked",
         "{do: ..., ask: ..., read: 3000H}",
-        optional=True,
     )
-    corroborated: tuple[Corroboration, ...] = fact(
-        "other documents on this", "[{document: ..., page: ..., reads: ...}]", optional=True, default=()
+    corroborated: tuple[Corroboration, ...] = option(
+        "other documents on this", "[{document: ..., page: ..., reads: ...}]", default=()
     )
 
 
@@ -1354,7 +1266,7 @@ class Tolerance(Entry):
         "`two_byte_count`: the byte count of a read reply may be a word instead of a byte", "two_byte_count"
     )
     source: English = fact("what the manual shows", "11.6.1, CRC of the RTU reply")
-    document: Word | None = fact(_SAYS_SO, "fieldbus_guide", optional=True)
+    document: Word | None = option(_SAYS_SO, "fieldbus_guide")
     why: English = fact("why it is allowed", "the printed CRC is that of such a reply")
 
 
@@ -1363,15 +1275,13 @@ class Numbering(Entry):
     """How the manual numbers registers, where it does not give the addresses that are sent."""
 
     first: Count = fact("the number of the register whose address is 0", "40001")
-    coil: Count | None = fact("the same for coils, where it is another", "1", optional=True)
-    discrete: Count | None = fact("the same for discrete inputs", "10001", optional=True)
-    input: Count | None = fact("the same for input registers", "30001", optional=True)
-    proof: Word | None = fact("id of an example request that shows it", "read_request", optional=True)
-    says: English | None = fact(
-        "the manual's own words, where no example shows it", "the number minus 1 is sent", optional=True
-    )
+    coil: Count | None = option("the same for coils, where it is another", "1")
+    discrete: Count | None = option("the same for discrete inputs", "10001")
+    input: Count | None = option("the same for input registers", "30001")
+    proof: Word | None = option("id of an example request that shows it", "read_request")
+    says: English | None = option("the manual's own words, where no example shows it", "the number minus 1 is sent")
     source: English = fact("where the manual says so", "section 5")
-    document: Word | None = fact(_SAYS_SO, "fieldbus_guide", optional=True)
+    document: Word | None = option(_SAYS_SO, "fieldbus_guide")
     hexadecimal: bool = field(default=False, compare=False, repr=False)
     """Whether the rows of the map write numbers so; the loader sees it."""
 
@@ -1386,15 +1296,13 @@ class Drive(Entry):
     """A whole map: one drive family."""
 
     format: Literal[1] = fact("version of this format", "1")
-    base: Word | None = fact(
+    base: Word | None = option(
         "the map of a sister model, by the name of its file, where this one says only what is different",
         "rockwell_powerflex_4",
-        optional=True,
     )
-    without: tuple[Str, ...] = fact(
+    without: tuple[Str, ...] = option(
         "what the base has and this drive has not, or has otherwise as a whole: keys and names of rows",
         "[settings, faults > codes > 48]",
-        optional=True,
         default=(),
     )
     prefix: Annotated[str, form.PREFIX] = fact("what the names of its blocks start with", "SN300G5")
@@ -1404,15 +1312,13 @@ class Drive(Entry):
     id_forms: tuple[Annotated[str, form.ID_FORM], ...] = fact(
         "forms of the manual's parameter ids: A letter, a small letter, 9 digit, X letter or digit", "[A9-99]"
     )
-    numbering: Numbering | None = fact(
+    numbering: Numbering | None = option(
         "how the manual numbers registers; then every address of this map is such a number, as in `address: 40102`",
         "{first: 40001, proof: read_request, source: section 5}",
-        optional=True,
     )
-    documents: tuple[Document, ...] = fact(
+    documents: tuple[Document, ...] = option(
         "other public documents that corroborate values, or that facts are taken from",
         "[{id: ..., title: ..., publisher: ...}]",
-        optional=True,
         default=(),
     )
     serial: Serial = fact("the line", "{interface: ..., mode: ..., unit: ...}")
@@ -1424,30 +1330,24 @@ class Drive(Entry):
     sections: tuple[Section, ...] = fact(
         "register tables, in the manual's order", "[{id: ..., title: ..., source: ..., access: r, registers: [...]}]"
     )
-    areas: tuple[Area, ...] = fact(
-        "parameter registers given by a rule", "[{id: function_codes, ...}]", optional=True, default=()
-    )
+    areas: tuple[Area, ...] = option("parameter registers given by a rule", "[{id: function_codes, ...}]", default=())
     storage: Storage = fact("what happens to written parameters", "{method: unexplained, source: ..., note: ...}")
     operation: Operation = fact("commands, reference, standstill", "{commands: [...], reference: ..., standstill: ...}")
-    identity: Identity | None = fact(
+    identity: Identity | None = option(
         "by what the drive is recognised over the bus",
         "{all: [{register: 0010H, equals: 1205H}], source: ..., why: ...}",
-        optional=True,
     )
-    watchdog: Watchdog | None = fact(
-        "the drive's own watchdog of a silent line",
-        "{feeds: any, chosen_by: H5-04, reactions: [...], source: ...}",
-        optional=True,
+    watchdog: Watchdog | None = option(
+        "the drive's own watchdog of a silent line", "{feeds: any, chosen_by: H5-04, reactions: [...], source: ...}"
     )
     faults: Faults = fact("fault codes", "{source: ..., registers: [...], codes: [...]}")
-    warnings: Warnings | None = fact(
-        "warning codes, where a register holds one", "{source: ..., register: 2100H, codes: [...]}", optional=True
+    warnings: Warnings | None = option(
+        "warning codes, where a register holds one", "{source: ..., register: 2100H, codes: [...]}"
     )
     errors: Errors = fact("error replies", "{form: ..., source: ..., codes: [...]}")
-    tolerances: tuple[Tolerance, ...] = fact(
+    tolerances: tuple[Tolerance, ...] = option(
         "departures from the standard that replies are allowed",
         "[{kind: two_byte_count, source: ..., why: ...}]",
-        optional=True,
         default=(),
     )
     notices: tuple[Notice, ...] = fact(

@@ -110,7 +110,7 @@ def _command(other: Drive, register: int, word: int) -> tuple[Meaning, str]:
     held = Held(ALL, word)
     cause = told.moves(held) if told else None
     means: Meaning = "motion" if cause else "stop" if told and told.stops(held) else "other"
-    named = [one for one in known.commands if one.last.register == register and one.last.is_in(word)]
+    named = [one for one in known.commands if one.last.register == register and one.last.pattern.holds(word)]
     if named:
         return means, f"its {named[0].does.replace('_', ' ')}"
     return means, f"its {cause or 'command'}"

@@ -201,10 +201,6 @@ class Write:
         """What is in its register after it; bits that it keeps do not count."""
         return Pattern(self.register, WORD & ~self.keeps, self.word)
 
-    def is_in(self, word: int) -> bool:
-        """Whether a word that was sent may be this write."""
-        return word & ~self.keeps == self.word
-
 
 @dataclass(frozen=True)
 class Command:

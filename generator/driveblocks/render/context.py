@@ -8,12 +8,7 @@ from typing import Literal
 from driveblocks import __version__
 from driveblocks.maps import names
 from driveblocks.maps.form import Span, address_text, bits_text, is_bit, space_of
-from driveblocks.maps.model import (
-    Drive,
-    Register,
-    Section,
-    Value,
-)
+from driveblocks.maps.model import Drive, Register, Section, Value
 from driveblocks.maps.names import UNIT_NAMES, symbol
 from driveblocks.maps.plan import READ_WORDS, WRITE_WORDS, Plan, Words, dialect, holding
 from driveblocks.maps.revision import revision

@@ -16,15 +16,7 @@ from driveblocks.maps.rivals import First, first_reads, refusals
 from driveblocks.maps.trust import second_hand
 from driveblocks.meaning.measure import PINS, Measure, Pin, measures, own_maximum
 from driveblocks.meaning.pattern import Pattern, bits_of
-from driveblocks.meaning.polls import (
-    Poll,
-    fast_words,
-    meaning_words,
-    other_words,
-    polls,
-    schedule,
-    slow_words,
-)
+from driveblocks.meaning.polls import Poll, fast_words, meaning_words, other_words, polls, schedule, slow_words
 from driveblocks.meaning.reference import Reference, reference
 from driveblocks.meaning.roles import Roles, roles
 from driveblocks.meaning.serial import serial
@@ -444,7 +436,7 @@ def _tested(drive: Drive, one: Pattern) -> Test:
 def _fault(drive: Drive) -> Faulty:
     if drive.faults.present is not None:
         bits = drive.faults.present_bits
-        mask, times = (sum(1 << bit for bit in bits), 1 << bits.first) if bits else (0, 1)
+        mask, times = (bits_of([bits]), 1 << bits.first) if bits else (0, 1)
         return Faulty(word_input(drive, drive.faults.present), [], mask, times)
     numbers = context.fault_number(drive)
     return Faulty(None, numbers.words if numbers else [])

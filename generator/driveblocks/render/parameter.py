@@ -52,11 +52,7 @@ class MayWrite:
 def may_write(drive: Drive, allowed: Plan) -> MayWrite:
     """What a ladder user may write, and why not the rest."""
     kept = [
-        (
-            "LINE_SETTING",
-            "what the connection and the full scale rest on",
-            _with_aliases(drive, _settings(drive)),
-        ),
+        ("LINE_SETTING", "what the connection and the full scale rest on", _with_aliases(drive, _settings(drive))),
         ("OWNED", "what moves the motor", _with_aliases(drive, _commanded(drive))),
         ("STORE_REGISTER", "what stores in the memory", _with_aliases(drive, [drive.storage.register])),
     ]

@@ -5,18 +5,7 @@ from collections.abc import Iterator
 from rich.console import RenderableType
 
 from driveblocks.maps.lookup import Match
-from driveblocks.maps.model import (
-    Area,
-    Bit,
-    Drive,
-    ErrorCode,
-    Fault,
-    Frame,
-    Function,
-    Register,
-    Section,
-    Setting,
-)
+from driveblocks.maps.model import Area, Bit, Drive, ErrorCode, Fault, Frame, Function, Register, Section, Setting
 from driveblocks.show import faults, frames, line, register, registers
 
 

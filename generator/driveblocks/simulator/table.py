@@ -12,7 +12,7 @@ from driveblocks.maps.pair import places, whole
 from driveblocks.maps.plan import Words, dialect, most, plan
 from driveblocks.maps.rivals import own_address
 from driveblocks.meaning.measure import measures
-from driveblocks.meaning.pattern import WORD, Pattern
+from driveblocks.meaning.pattern import WORD, Pattern, bits_of
 from driveblocks.meaning.quantity import quantity
 from driveblocks.meaning.reference import reference
 from driveblocks.meaning.serial import serial
@@ -188,7 +188,7 @@ def _warning(drive: Drive) -> tuple[int, int]:
     if drive.warnings is None:
         return 0, 0
     span, codes = drive.warnings.span, drive.warnings.codes
-    return sum(1 << bit for bit in span), (codes[0].code if codes else 1) << span.first
+    return bits_of([span]), (codes[0].code if codes else 1) << span.first
 
 
 @lru_cache(8)

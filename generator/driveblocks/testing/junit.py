@@ -12,11 +12,7 @@ from structured_text.visible import visible
 
 def text(run: Run) -> str:
     """The XML. Apart from the times, the same results give the same text."""
-    root = ElementTree.Element(
-        "testsuites",
-        name="driveblocks",
-        time=f"{run.seconds:.3f}",
-    )
+    root = ElementTree.Element("testsuites", name="driveblocks", time=f"{run.seconds:.3f}")
     for result in run.results:
         root.append(_suite(result))
     for kind in ("tests", "failures", "errors"):

@@ -181,7 +181,7 @@ def _commands(drive: Drive, address: int, word: int) -> Iterator[Line]:
     for command in known.commands:
         does, many = command.does.replace("_", " "), len(command.writes)
         for turn, write in enumerate(command.writes, 1):
-            if write.register == address and write.is_in(word):
+            if write.register == address and write.pattern.holds(word):
                 step = f", write {turn} of {many}" * (write is not command.last)
                 found = True
                 yield Line("command", "", does + (step or " with a negative reference" * command.negative), "", None)

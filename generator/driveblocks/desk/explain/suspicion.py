@@ -67,10 +67,7 @@ def _standard(one: Layout) -> Iterator[Told]:
     quantity, address = one.number("quantity"), one.number("address") or 0
     limit = {1: 2000, 2: 2000, 3: 125, 4: 125, 15: 1968, 16: 123}.get(one.function)
     if quantity is not None and limit is not None and not 1 <= quantity <= limit:
-        yield (
-            f"quantity {quantity} is out of range: 1 to {limit}",
-            _swapped(quantity, limit),
-        )
+        yield f"quantity {quantity} is out of range: 1 to {limit}", _swapped(quantity, limit)
     elif quantity is not None and address + quantity > 0x10000:
         yield "the registers run past FFFFH", ""
 

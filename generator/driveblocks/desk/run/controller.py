@@ -21,12 +21,7 @@ class Controller:
     """A program at a port. Without a guard everything is sent."""
 
     def __init__(
-        self,
-        library: EmbeddedLibrary,
-        program: str,
-        wiring: Wiring,
-        drives: dict[str, Drive],
-        scan_us: int,
+        self, library: EmbeddedLibrary, program: str, wiring: Wiring, drives: dict[str, Drive], scan_us: int
     ) -> None:
         """Make an instance of the program; its port comes by `connect`."""
         self.instance: EmbeddedInstance = library.instance(program)

@@ -30,10 +30,7 @@ class Watchdog:
     """Begins and ends with every scan; `watch` runs in another thread, on the clock of the machine."""
 
     def __init__(
-        self,
-        limit_us: int = LIMIT_US,
-        now_us: Callable[[], int] = now_us,
-        wait: Callable[[Bell, int], None] = heard,
+        self, limit_us: int = LIMIT_US, now_us: Callable[[], int] = now_us, wait: Callable[[Bell, int], None] = heard
     ) -> None:
         """A scan may take so long; `now_us` and `wait` are the time and a way to let it pass."""
         self.limit_us = limit_us

@@ -16,7 +16,7 @@ from driveblocks.desk.site.session import SKIPPABLE, STEPS
 from driveblocks.maps import nodes, source
 from driveblocks.maps.decode import build
 from driveblocks.maps.form import Form
-from driveblocks.maps.model import Count, Entry, Id, Number, OpenScale, Str, Word, fact
+from driveblocks.maps.model import Count, Entry, Id, Number, OpenScale, Str, Word, fact, option
 from driveblocks.maps.problem import Report
 from driveblocks.maps.shape import EntryOf
 from structured_text import files
@@ -47,10 +47,10 @@ class Checked(Entry):
     """A setting of the keypad."""
 
     id: Id = fact("the manual's id", "H5-01")
-    read: Number | None = fact("as read", "1", optional=True)
-    must: Number | None = fact("as it must be", "2", optional=True)
-    one_of: tuple[Number, ...] = fact("as it may be, where several numbers serve", "[1, 2]", optional=True, default=())
-    told: Str | None = fact("what a person said of it: yes or no", '"yes"', optional=True)
+    read: Number | None = option("as read", "1")
+    must: Number | None = option("as it must be", "2")
+    one_of: tuple[Number, ...] = option("as it may be, where several numbers serve", "[1, 2]", default=())
+    told: Str | None = option("what a person said of it: yes or no", '"yes"')
 
     @property
     def right(self) -> tuple[int, ...]:
@@ -64,7 +64,7 @@ class Times(Entry):
 
     reads: Count = fact("reads", "200")
     longest_ms: Number = fact("longest reply", "12")
-    gap_ms: Count | None = fact("shortest pause after a reply that held", "2", optional=True)
+    gap_ms: Count | None = option("shortest pause after a reply that held", "2")
     words: Number = fact("words of the longest read", "16")
     unlisted: Str = fact("a read of a register that the map does not list", "001BH, refused")
     turn_round_ms: Ms = fact("`TurnRoundMs`", "50")
@@ -90,9 +90,9 @@ class Said(Entry):
 
     gap: Str = fact("`what` of the gap", "scale of 3000H")
     answer: Str = fact("as typed", '"20.0"')
-    word: Number | None = fact("the register at that moment", "2000", optional=True)
-    gives: OpenScale | None = fact("a scale of `VFD_Settings`", "FrequencyScale", optional=True)
-    value: Tens | None = fact("the scale", '"0.01"', optional=True)
+    word: Number | None = option("the register at that moment", "2000")
+    gives: OpenScale | None = option("a scale of `VFD_Settings`", "FrequencyScale")
+    value: Tens | None = option("the scale", '"0.01"')
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -102,24 +102,22 @@ class Kept(Entry):
     map: Str = fact("name of the map", "invt_chf")
     revision: Str = fact("its revision", '"1A2B3C4D"')
     date: Str = fact("when", '"2026-11-23 10:30"')
-    who: Str | None = fact("who", "A. Person", optional=True)
+    who: Str | None = option("who", "A. Person")
     line: Place = fact("the line", "{rate: 9600, form: 8N1, mode: rtu, unit: 1}")
     family: Literal["identity", "fits", "unknown"] = fact(
         "`identity`: by the map's; `fits`: it answers as the map says; `unknown`: it answers every address", "fits"
     )
-    plate: Str | None = fact("type, rating, firmware", '"5.5 kW, 1.02"', optional=True)
-    finished: tuple[Word, ...] = fact("steps that were finished", "[quiet, find]", optional=True, default=())
-    skipped: tuple[Str, ...] = fact("steps and questions passed over", "[plate]", optional=True, default=())
-    ended: Str | None = fact("why it did not come to its end", "Ctrl-C", optional=True)
-    faults: tuple[Str, ...] = fact("what was wrong", "[...]", optional=True, default=())
-    tried: tuple[Str, ...] = fact(
-        "rates and formats that were tried", "[9600 bit/s 8N1 RTU]", optional=True, default=()
-    )
-    evidence: tuple[Str, ...] = fact("what speaks for the family, with its frame", "[...]", optional=True, default=())
-    quality: Figures | None = fact("exchanges on the line since it was found", "{exchanges: 231, ...}", optional=True)
-    settings: tuple[Checked, ...] = fact("the keypad", "[{id: H5-01, read: 1}]", optional=True, default=())
-    measured: Times | None = fact("times", "{reads: 200, ...}", optional=True)
-    answers: tuple[Said, ...] = fact("gaps", "[{gap: ..., answer: ...}]", optional=True, default=())
+    plate: Str | None = option("type, rating, firmware", '"5.5 kW, 1.02"')
+    finished: tuple[Word, ...] = option("steps that were finished", "[quiet, find]", default=())
+    skipped: tuple[Str, ...] = option("steps and questions passed over", "[plate]", default=())
+    ended: Str | None = option("why it did not come to its end", "Ctrl-C")
+    faults: tuple[Str, ...] = option("what was wrong", "[...]", default=())
+    tried: tuple[Str, ...] = option("rates and formats that were tried", "[9600 bit/s 8N1 RTU]", default=())
+    evidence: tuple[Str, ...] = option("what speaks for the family, with its frame", "[...]", default=())
+    quality: Figures | None = option("exchanges on the line since it was found", "{exchanges: 231, ...}")
+    settings: tuple[Checked, ...] = option("the keypad", "[{id: H5-01, read: 1}]", default=())
+    measured: Times | None = option("times", "{reads: 200, ...}")
+    answers: tuple[Said, ...] = option("gaps", "[{gap: ..., answer: ...}]", default=())
 
 
 @dataclass(frozen=True)

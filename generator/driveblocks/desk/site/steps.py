@@ -125,10 +125,7 @@ def measure(talk: Talk, asker: Asker, reads: int = READS) -> Measured:
 def _holds(talk: Talk, gap_ms: int) -> bool:
     """Whether the drive answers each of some reads that begin so soon after its reply; they say nothing of the line."""
     span, master = first_read(talk.drive), talk.line.master
-    kept, master.said = (
-        master.said,
-        Exchanges({}, talk.drive, own=True),
-    )
+    kept, master.said = master.said, Exchanges({}, talk.drive, own=True)
     try:
         return all(talk.read(span, None, 1000 * gap_ms).answered for _ in range(GAP_READS))
     except EndedError:  # an adapter was still handing over the reply

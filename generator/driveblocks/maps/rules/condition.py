@@ -106,7 +106,7 @@ def _hidden(mask: int, value: int, row: Register) -> Iterator[str]:
         if mask >> number & 1 and number not in listed:
             yield f"bit {number:X}"
     for bit in row.bits:
-        ours = sum(1 << number for number in bit.bit)
+        ours = bits_of([bit.bit])
         found = (value & ours) >> bit.bit.first
         if bit.values and mask & ours == ours and found not in {one.value for one in bit.values}:
             yield f"value {found} of bits {bits_text(bit.bit)}"

@@ -4,17 +4,7 @@ from decimal import Decimal
 from typing import get_args
 
 from driveblocks.maps.form import address_text
-from driveblocks.maps.model import (
-    Bit,
-    Drive,
-    Measure,
-    Measured,
-    Reference,
-    Register,
-    Shows,
-    Status,
-    Value,
-)
+from driveblocks.maps.model import Bit, Drive, Measure, Measured, Reference, Register, Shows, Status, Value
 from driveblocks.maps.names import UNIT_NAMES
 from driveblocks.maps.problem import Report
 from driveblocks.maps.rules import term

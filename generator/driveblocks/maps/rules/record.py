@@ -3,18 +3,7 @@
 from collections.abc import Iterator
 
 from driveblocks.maps.form import address_text, bits_text, span_text
-from driveblocks.maps.model import (
-    Bit,
-    Corroboration,
-    Drive,
-    Entry,
-    Erratum,
-    ErrorCode,
-    Register,
-    Section,
-    Text,
-    Value,
-)
+from driveblocks.maps.model import Bit, Corroboration, Drive, Entry, Erratum, ErrorCode, Register, Section, Text, Value
 from driveblocks.maps.plan import plan
 from driveblocks.maps.problem import Place, Report
 from driveblocks.maps.rules.reference import Known

@@ -3,18 +3,7 @@
 from driveblocks.maps.form import address_text
 from driveblocks.maps.model import Act, Bit, Does, Drive, Register, Value
 from driveblocks.maps.problem import Report
-from driveblocks.meaning.words import (
-    DOES,
-    KINDS,
-    MOTIONS,
-    STOPS,
-    UNKNOWN,
-    Cause,
-    Command,
-    Words,
-    Write,
-    words,
-)
+from driveblocks.meaning.words import DOES, KINDS, MOTIONS, STOPS, UNKNOWN, Cause, Command, Words, Write, words
 
 _KIND = {does: act for act, does in KINDS.items()}
 """How each stop stops."""

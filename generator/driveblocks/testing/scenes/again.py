@@ -46,9 +46,7 @@ def _midst(can: Ability) -> Iterator[tuple[str, list[Step]]]:
     yield "while a start waits for its answer", [Step("no answer", lost, why("STARTING"), 500), Step("", ms=100)]
     yield (
         "after a start without an answer",
-        [
-            Step("it is refused", {"Fate.RefusesWrites": True, "RunForward": True}, why("REFUSED"), 1500),
-        ],
+        [Step("it is refused", {"Fate.RefusesWrites": True, "RunForward": True}, why("REFUSED"), 1500)],
     )
     ignored: Shows = {"Fate.Local": True, "RunForward": True, "Pins.Settings.FollowWithinMs": 500}
     yield "after a start that was not followed", [Step("nothing happens", ignored, why("NOT_FOLLOWED"), 3000)]

@@ -64,10 +64,7 @@ START = (
         {"Pins.Acknowledge": True},
         "Motor.Ready",
         3000,
-        {
-            "Reason": "READY",
-            "Bus.ForeignFrames": 0,
-        },
+        {"Reason": "READY", "Bus.ForeignFrames": 0},
         brisk=True,
     ),
 )

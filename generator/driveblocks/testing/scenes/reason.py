@@ -18,9 +18,7 @@ REASONS = {
 
 def unreached(can: Ability, *, writes: bool) -> dict[str, str]:
     """Reasons that no scene of a family shows, and why; `writes`: some parameter can be written."""
-    found = {
-        "RELEASED": "it is in Diagnosis.StopReason alone, where a scene looks for it",
-    }
+    found = {"RELEASED": "it is in Diagnosis.StopReason alone, where a scene looks for it"}
     if can.settings_come_first:
         found["UNREAD"] = "the settings are read before the stop after power-up is confirmed"
     if not second_hand(can.drive):

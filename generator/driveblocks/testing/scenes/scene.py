@@ -107,12 +107,7 @@ class More:
 
 
 def script(  # noqa: PLR0913, PLR0917 - what the head of a program says, its scenes, and what more it has
-    drive: Drive,
-    stem: str,
-    subject: str,
-    title: str,
-    scenes: Iterable[Scene],
-    more: More = More(),
+    drive: Drive, stem: str, subject: str, title: str, scenes: Iterable[Scene], more: More = More()
 ) -> Script:
     program = bench.script(drive, stem, subject, title)
     program.variables |= _variables(drive, other=more.other) | dict(more.blocks)

@@ -20,11 +20,7 @@ from structured_text.language.tree import (
 )
 from structured_text.language.types import VOID, Kind, Type
 
-_DIRECTIONS = {
-    VarKind.INPUT: Direction.INPUT,
-    VarKind.OUTPUT: Direction.OUTPUT,
-    VarKind.IN_OUT: Direction.IN_OUT,
-}
+_DIRECTIONS = {VarKind.INPUT: Direction.INPUT, VarKind.OUTPUT: Direction.OUTPUT, VarKind.IN_OUT: Direction.IN_OUT}
 
 
 def declare_type(resolver: Resolver, declared: TypeDecl) -> None:
