@@ -9,7 +9,7 @@ from tests.line.crowd import FAMILIES, WHY_NOT
 pytestmark = pytest.mark.skipif(bool(WHY_NOT), reason=WHY_NOT)
 
 
-@pytest.mark.parametrize("name", map(str, range(8)))
+@pytest.mark.parametrize("name", [str(each) for each in range(8)])
 def test_a_random_line(name: str) -> None:
     assert budget.judge(name).told == []
 
