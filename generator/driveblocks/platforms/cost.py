@@ -6,9 +6,9 @@ from driveblocks.render.library import CHINESE, FRAMES, LINE2, LINE32, METER, PA
 from structured_text.language.tree import Block, FunctionBlock, VarKind
 from structured_text.language.types import UNKNOWN, Type
 
-CODE_KIB = {"": 104, LINE2: 16, LINE32: 16, PARAMETERS: 11, METER: 4, FRAMES: 12, CHINESE: 16}
+CODE_KIB = {"": 111, LINE2: 15, LINE32: 15, PARAMETERS: 11, METER: 4, FRAMES: 12, CHINESE: 18}
 """By extra, KiB of code that it adds to what it needs. A test that needs matiec measures it."""
-FAMILY_KIB = (16, 43)
+FAMILY_KIB = (20, 47)
 """The same of the smallest and the largest family, without its extras."""
 MEASURED = "matiec 6bb2c33 and gcc 12.2 `-Os` for x86-64, 2026-11-29"
 """By what, and when."""
