@@ -174,7 +174,7 @@ def cost(job: Job) -> Iterator[Row]:
         measured += busy.told("idle, {waiting_ns:.0f} waiting, {transaction_ns:.0f} with a transaction; ")
         measured += "of the CRC of 256 bytes by a table in C: "
         measured += ", ".join(f"{ratio:.2f} {name}" for name, ratio in times.items())
-        fine = busy["line_bytes"] <= 258 * slots + 1376 and busy["slot_bytes"] <= 208
+        fine = busy["line_bytes"] <= 340 * slots + 4060 and busy["slot_bytes"] <= 260
         yield Row(f"line of {slots} slots and drives", measured, fine)
 
 
