@@ -35,8 +35,8 @@ QUOTED = [
         "soft-plc.md",
         r"`make long WHAT=linux-line` \| [\d,]+ \| (\d+)",
     ),
-    ("stop.md", r"(no) stop was lost", "line.md", r"1000000 random lines of kind stops, .*? stops: (\d+) lost"),
-    ("stop.md", r"(none) was later", "line.md", r"1000000 random lines of kind stops, .*? lost, (\d+) late"),
+    ("stop.md", r"(no) stop was lost", "line.md", r"100000 random lines of kind stops, .*? stops: (\d+) lost"),
+    ("stop.md", r"(none) was later", "line.md", r"100000 random lines of kind stops, .*? lost, (\d+) late"),
     *(
         ("linux.md", rf"{rate} bit/s \|[^\n]*\| (\d+) ms \|", "line.md", rf"\| {rate} 8N1 \|(?: \d+ \|){{5}} (\d+) \|")
         for rate in (9600, 19200, 38400, 115200)
