@@ -11,7 +11,7 @@ from driveblocks.prove.operations import Term
 from driveblocks.prove.rules import Rule
 from driveblocks.prove.terms import Obligation, Store
 
-WORK = 60_000_000
+WORK = 240_000_000
 """Steps of the solver for one question, after which its answer is unknown; no clock, so that all machines agree."""
 
 STEPS = ("simplify", "propagate-values", "solve-eqs", "fpa2bv", "simplify", "bit-blast", "sat")
