@@ -290,11 +290,13 @@ class Hall:
         return one
 
     def put(self, at: int, **pins: float) -> None:
-        """Set pins of a drive block."""
-        for name, value in pins.items():
-            self.drives[at][name.replace("__", ".")] = value
-        block = self.library.blocks[at]
-        block.put_at = -1
+        """Set pins of a drive block; what they were already asks for nothing new."""
+        drive, block = self.drives[at], self.library.blocks[at]
+        wanted = {name.replace("__", "."): value for name, value in pins.items()}
+        if any(drive[name] != value for name, value in wanted.items()):
+            block.put_at = -1
+        for name, value in wanted.items():
+            drive[name] = value
         if not set(pins) <= set(RUNS):
             block.ready = 0
 
