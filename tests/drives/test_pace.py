@@ -58,6 +58,12 @@ def test_a_line_that_is_too_slow_bars_every_start_and_shows_both_figures() -> No
     line(bench, ReadMs=STALE_MS, WorstReadMs=9000).running()
 
 
+def test_a_status_that_is_never_fresh_is_the_line_s_fault_not_the_cable_s() -> None:
+    bench = line(Bench("CHF").put(StaleMs=10), ReadMs=11)
+    bench.run(5000)
+    assert (bench.shows("CommOk"), bench.reason()) == (False, "TOO_SLOW")
+
+
 def test_until_the_line_knows_nothing_starts() -> None:
     line(bars({"ReadMs": 0}, "LEARNING"), ReadMs=100).running()
 
