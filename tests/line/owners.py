@@ -245,12 +245,12 @@ def address_typo(case: Case, first: str, second: str) -> None:
 
 
 def wrong(case: Case, first: str, second: str) -> None:
-    """A block alone at the address of another make's drive."""
+    """A block alone at the address of another make's drive; sister models with the same words are none."""
     case.model(second, 1)
     case.hall.drive(first, 1)
     case.hall.restart()
     case.quiet()
-    if case.hall.drives[0]["StopConfirmed"]:
+    if idle(first) != idle(second) and case.hall.drives[0]["StopConfirmed"]:
         case.tell("stands", "a drive of another make is called stopped")
 
 

@@ -24,6 +24,8 @@ CALM_US = 45_000_000
 """Foreign frames bar starts until 30 s with few have passed."""
 WITHIN_US = 10_000_000
 """From standstill to its proof beside a panel that leaves room."""
+COUNTED_MS, FOREIGN_MOST = 10_000, 5
+"""More foreign frames than these in this time bar starts."""
 STALE = 5000
 REQUEST, REPLY = 8, 7
 """Characters of a read, and of a reply of one word."""
@@ -76,6 +78,8 @@ class Panel:
         self.hall, self.draw, self.chance = hall, one, chance
         self.reads: dict[int, list[bytes]] = {}
         self.on, self.last_us, self.number = False, 0, 0
+        self.whole: list[int] = []
+        """When requests began that nothing of ours ran into: others cannot be heard."""
         self.busy_us = 0
         hall.watch.append(self._heard)
 
@@ -121,7 +125,10 @@ class Panel:
         hall.at(end, lambda: self._asked(data, number, asked, end))
 
     def _asked(self, data: bytes, number: int, asked: int, end: int) -> None:
-        replied = 0 if self.hall.library.c.crowd_spoilt(number) else self.hall.answer(data, end)
+        spoilt = self.hall.library.c.crowd_spoilt(number)
+        replied = 0 if spoilt else self.hall.answer(data, end)
+        if not spoilt:
+            self.whole.append(asked)
         over = replied or end + US * 100  # its time-out
         self.last_us = max(self.last_us, replied)
         self.number += 1
@@ -234,12 +241,14 @@ class Walk:
             )
 
     def start_in_vain(self) -> None:
-        """An edge beside it starts nothing."""
+        """An edge beside it starts nothing, where it has been heard often enough; what no stop reaches runs on."""
         h = self.hall
-        self.pass_(5000)
+        self.pass_(COUNTED_MS)
+        runs = self.one.output
+        heard = sum(each > h.now - US * COUNTED_MS for each in self.panel.whole)
         h.put(0, RunForward=1)
         self.pass_(6000)
-        if self.one.motor.hz(h.now) or self.one.output:
+        if self.one.output and not runs and heard > FOREIGN_MOST:
             self.out.tell("starts", f"{self._who()}: it runs, {self.panel.number} requests of the panel")
         h.put(0, RunForward=0)
 

@@ -6,7 +6,7 @@ from tests.line.vline import library
 from structured_text.engines.engine import Instance, Value
 
 FOREIGN, DOUBLED, SHARED, PORT, STANDS, OVERDUE = 54, 55, 56, 57, 58, 61
-REPLY, REQUEST, LATE = 1, 2, 3
+REPLY, REQUEST, LATE, EITHER = 1, 2, 3, 4
 
 
 def part(name: str, **pins: Value) -> Instance:
@@ -140,7 +140,15 @@ def test_another_masters_request_is_waited_for_once() -> None:
     block = stray(REQUEST, LateOwed=1, RestedMs=5)
     assert (block["Ours"], block["ForeignMs"], block["PauseMs"], block["Surplus"]) == (False, 25, 25, 255)
     assert stray(REQUEST, ForeignMs=3)["PauseMs"] == 0
-    assert stray(REQUEST, LateOwed=1, TwoByteCount=True)["Ours"]
+    assert not stray(REQUEST, LateOwed=1, TwoByteCount=True)["Ours"]
+    assert [stray(EITHER, LateOwed=1, TwoByteCount=two)["Ours"] for two in (False, True)] == [False, True]
+
+
+def test_what_waited_for_another_masters_reply_waits_no_longer_than_that() -> None:
+    """A panel that asks more often than the drive may take to answer kept the line from reading it at all."""
+    assert stray(REPLY, ForeignMs=25, PauseMs=25)["PauseMs"] == 0
+    assert stray(REPLY, ForeignMs=25, PauseMs=26)["PauseMs"] == 26
+    assert stray(REPLY, ForeignMs=25, PauseMs=25, Online=False)["PauseMs"] == 25
 
 
 def test_a_reply_that_nobody_has_asked_for_is_a_surplus() -> None:

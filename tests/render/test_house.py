@@ -75,8 +75,10 @@ def test_every_file_holds_one_thing_named_like_it(units: list[Unit]) -> None:
 
 
 def test_no_block_is_longer_than_300_lines(library: dict[str, str]) -> None:
-    lines = {name: content.count("\n") for name, content in library.items() if "/line/" not in name}
-    assert {name: count for name, count in lines.items() if count > 300} == {}
+    lines = {name: content.count("\n") for name, content in library.items()}
+    longer = {name: count for name, count in lines.items() if count > 300}
+    assert {name for name in longer if not re.search(r"/MB_Line\d+\.st$", name)} == set()
+    assert max(longer.values()) <= 429  # the line itself, which hands slots and tables on
 
 
 def test_a_compartment_an_error_and_a_reason_have_names_in_the_blocks_of_drives(library: dict[str, str]) -> None:
