@@ -386,6 +386,7 @@ def main() -> int:
     parser.add_argument("--alike", action="store_true", help="eight drives of one family, also while some die")
     parser.add_argument("--only", help="one of them")
     options = parser.parse_args()
+    crowd()  # compiled once, for all processes
     names = list(alike_lines()) if options.alike else [str(options.first + at) for at in range(options.count)]
     found = judged([options.only] if options.only else names, judge, options.jobs, options.store)
     return report(found, random=not options.alike and not options.only)

@@ -8,8 +8,6 @@ from concurrent.futures import ProcessPoolExecutor
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 
-from tests.line.crowd import crowd
-
 JOBS = 2
 
 
@@ -49,7 +47,6 @@ def arguments(words: str, count: int) -> argparse.ArgumentParser:
 
 def judged(names: Iterable[str], judge: Callable[[str], Judged], jobs: int, store: Path | None) -> list[Judged]:
     """Judge cases by name, and print each that breaks a rule."""
-    crowd()  # compiled once, for all processes
     known = _stored(store)
     wanted = list(names)
     found = [known[each] for each in wanted if each in known]

@@ -457,6 +457,7 @@ def main() -> int:
     parser = arguments(__doc__ or "", 0)
     parser.add_argument("--only", default="", help="those whose name begins so")
     options = parser.parse_args()
+    crowd()  # compiled once, for all processes
     return summary(judged((n for n in names() if n.startswith(options.only)), judge, options.jobs, options.store))
 
 

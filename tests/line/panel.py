@@ -301,6 +301,7 @@ def main() -> int:
     parser = arguments(__doc__ or "", 2000)
     parser.add_argument("--only", help="one of them")
     options = parser.parse_args()
+    crowd()  # compiled once, for all processes
     names = [options.only] if options.only else [str(options.first + at) for at in range(options.count)]
     return report(judged(names, judge, options.jobs, options.store))
 

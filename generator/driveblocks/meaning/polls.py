@@ -173,10 +173,13 @@ def other_words(drive: Drive, poll: Poll, reads: tuple[Poll, ...]) -> int:
 
 
 def _apart(drive: Drive, found: list[Poll]) -> Iterator[Poll]:
-    """The reads, each as long as none before it."""
+    """The reads, each as long as none before it; none runs into another."""
     taken: set[tuple[int, int]] = set()
     for poll in found:
         longer = replace(poll, words=beyond(drive, poll, taken) or poll.words)
+        others = {address for each in found if each is not poll for address in each.addresses}
+        if not others.isdisjoint(longer.addresses):
+            longer = poll
         taken.add(longer.looks)
         yield longer
 

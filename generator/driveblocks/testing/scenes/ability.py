@@ -41,6 +41,12 @@ class Ability:
         """Whether it measures something."""
         return any(one.name == what for one in measures(self.drive))
 
+    def reads_at_once(self, what: str) -> bool:
+        """Whether a measure is in the reads of each round."""
+        registers = [one.register for one in measures(self.drive) if one.name == what]
+        return any(each.fast and register in range(each.address, each.address + each.words)
+                   for each in polls(self.drive) for register in registers)  # fmt: skip
+
     def kind(self, wanted: str) -> int:
         """Number of the stop that is sent where one is wanted: the drive's own, else its stop."""
         return KINDS[wanted if self.can(wanted) else "stop"]

@@ -5,6 +5,7 @@ from collections.abc import Iterator
 from driveblocks.maps.model import Drive
 from driveblocks.maps.rivals import first_reads
 from driveblocks.meaning.measure import measures
+from driveblocks.meaning.polls import polls
 from driveblocks.meaning.serial import serial
 from driveblocks.meaning.watchdog import feeds, watchdog
 from driveblocks.meaning.words import words
@@ -172,8 +173,9 @@ def _stale() -> Iterator[Step]:
 
 
 def _follow(drive: Drive) -> Iterator[Step]:
-    """Each state on the way to a run is proved first. The time is at least that of two reads in turn."""
+    """Each state on the way to a run is proved first. The time is at least that of two reads in turn, and of a round."""
     states = len(words(drive).named["run_forward"].writes) - 1
+    most = 1080 + 80 * states + 40 * len(polls(drive))
     ignored: Shows = {
         "Fate.Local": True,
         "RunForward": True,
@@ -181,7 +183,7 @@ def _follow(drive: Drive) -> Iterator[Step]:
         "Pins.Settings.StaleMs": 1000,
     }
     yield Step("it does nothing", MS | ignored, why("NOT_FOLLOWED"), 30000, {
-        ".WaitedMs": _after(1005, 1080 + 80 * states),
+        ".WaitedMs": _after(1005, most),
     })  # fmt: skip
 
 

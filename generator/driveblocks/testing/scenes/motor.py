@@ -295,10 +295,11 @@ def _stronger(can: Ability) -> Iterator[Step]:
     runs_on: Shows = {"RunForward": False, "Fate.RunsOn": True, "StopWithinMs": 20000}
     yield Step("a ramp, and it runs on", runs_on, TOLD, 300, {"Seen.StopKind": 1})
     yield Step("a quick stop", {"QuickStop": True}, ms=150, shows={"Seen.StopKind": can.kind("quick_stop")})
-    yield Step("a coast stop", {"CoastStop": True}, ms=150, shows={"Seen.StopKind": can.kind("coast_stop")})
+    strongest = can.kind("coast_stop" if can.can("coast_stop") else "quick_stop")
+    yield Step("a coast stop", {"CoastStop": True}, ms=150, shows={"Seen.StopKind": strongest})
     pins: Shows = {"CoastStop": False, "QuickStop": False, ".Mark": "Seen.Stops"}
     yield Step("its repetitions are as strong", pins, "Seen.Stops > Mark", 1000, {
-        "Seen.StopKind": can.kind("coast_stop"), "Slots[0].StopAgain": True,
+        "Seen.StopKind": strongest, "Slots[0].StopAgain": True,
     })  # fmt: skip
     yield Step("at standstill", {"Fate.RunsOn": False}, "Motor.StopConfirmed", 3000, STANDS)
 
@@ -413,7 +414,6 @@ def _trip(can: Ability) -> Iterator[Step]:
     yield Step("the first fault is kept", ms=300, shows={
         "Motor.Diagnosis.FirstFaultCode": can.code, "Motor.Diagnosis.FaultBack1": can.code,
         "Motor.Diagnosis.FirstFaultMs > 200": True, "Motor.Diagnosis.FirstFaultMs < 5000": True,
-        "Motor.Diagnosis.FirstFaultState": 4,
     } | _measured_at_fault(can))  # fmt: skip
     yield from _gone(can)
     yield Step("released", {"RunForward": False, "FaultReset": False}, "Motor.Ready", 1500)
@@ -429,12 +429,15 @@ def _trip(can: Ability) -> Iterator[Step]:
 
 
 def _measured_at_fault(can: Ability) -> Shows:
-    """What was read last, before it tripped."""
+    """What was read last, before it tripped; a fault that its code alone shows may be seen after the stop."""
     found: Shows = {}
-    if can.measures("output_frequency"):
-        found["ABS(Motor.Diagnosis.FirstFaultHz - 30.0) < 8.0"] = True
+    if can.shows("fault"):
+        found["Motor.Diagnosis.FirstFaultState"] = 4
+        if can.measures("output_frequency"):
+            found["ABS(Motor.Diagnosis.FirstFaultHz - 30.0) < 8.0"] = True
     if can.measures("dc_bus_voltage"):
-        found["Motor.Diagnosis.FirstFaultV"] = 540.0
+        unread = "" if can.reads_at_once("dc_bus_voltage") else " OR (Motor.Diagnosis.FirstFaultV = 0.0)"
+        found[f"(Motor.Diagnosis.FirstFaultV = 540.0){unread}"] = True
     return found
 
 
@@ -452,7 +455,8 @@ def _gone(can: Ability) -> Iterator[Step]:
         sets: Shows = {"Fate.Cause": False, "Fate.KeypadReset": True}
         gone = "Motor.StopConfirmed AND NOT Motor.Fault"
         yield Step("somebody resets it on its keypad", sets, gone, 4000, STANDS | {"FaultCode": 0})
-        yield Step("the run pin is still held", ms=500, shows={"Seen.Starts": 1, "Reason": "HELD"})
+        held = why("HELD") if can.shows("fault") else f"({why('HELD')}) OR ({why('BY_ITSELF')})"
+        yield Step("the run pin is still held", ms=500, shows={"Seen.Starts": 1, held: True})
 
 
 def _trip_still(can: Ability) -> Iterator[Step]:

@@ -89,7 +89,7 @@ def _unread() -> Iterator[Step]:
 def _refused() -> Iterator[Step]:
     refuses: Shows = {"RunForward": False, "Fate.RefusesWrites": True, "StopWithinMs": 20000}
     yield Step("it refuses the stop", refuses | FROM_HERE, ms=3000, shows={
-        ".Writes": (5, 7), "StopConfirmed": False, "Seen.Driven": True, "CommOk": True,
+        ".Writes": (5, 8), "StopConfirmed": False, "Seen.Driven": True, "CommOk": True,
     })  # fmt: skip
     yield Step("it takes it", {"Fate.RefusesWrites": False}, "Motor.StopConfirmed", 3000, STANDS)
 

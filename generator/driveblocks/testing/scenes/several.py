@@ -94,7 +94,7 @@ def _written(drive: Drive) -> Iterator[Step]:
 
 
 def _read_again(drive: Drive, place: int, count: int) -> Iterator[Step]:
-    if all(place + at in readable(drive) for at in range(count)):
+    if count <= most(drive, "rtu").read and all(place + at in readable(drive) for at in range(count)):
         values: Shows = {
             f"Reader.Value{at or ''} = {word(each)}": True
             for at, each in list(zip((0, 2, 3), GIVEN, strict=True))[:count]

@@ -1,0 +1,541 @@
+"""Maps drawn at random: each is a drive that nobody has built, and that `check` calls good.
+
+`python -m tests.shapes.drawn SEED` prints one. tests/shapes/life.py plays a life of each.
+"""
+
+import sys
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from random import Random
+from typing import Any
+
+import yaml
+
+from driveblocks.modbus.checksum import crc16
+
+Row = dict[str, Any]
+BASES = (0x0100, 0x1000, 0x2000, 0x2100, 0x3000, 0x5000, 0x7000, 0x9000)
+UNITS = {
+    "output_current": ("Output current", "A", 0.1), "output_voltage": ("Output voltage", "V", 0.1),
+    "dc_bus_voltage": ("DC bus voltage", "V", 1), "output_power": ("Output power", "kW", 0.01),
+    "output_speed": ("Output speed", "r/min", 1), "output_torque": ("Output torque", "%", 0.1),
+    "relative_power": ("Relative power", "%", 0.1), "drive_temperature": ("Temperature of the drive", "°C", 1),
+    "motor_temperature": ("Temperature of the motor", "°C", 0.1), "operating_time": ("Hours", "h", 1),
+    "energy": ("Energy", "kWh", 0.1),
+}  # fmt: skip
+SCALED_BY_SETTING = ("output_current", "output_voltage", "dc_bus_voltage", "output_power")
+LANGUAGES = ("en", "en", "zh", "de")
+TIMES = {"trips": "Trip", "coast_stop": "Coast stop", "stop": "Stop by the ramp", "runs_on": "Run on"}
+
+
+def hexadecimal(number: int) -> str:
+    """As a manual prints an address."""
+    return f"{number:04X}H"
+
+
+@dataclass
+class Sheet:
+    """A map while it is drawn."""
+
+    chance: Random
+    language: str = "en"
+    numbers: int = 0
+    """What is added to an address where the manual numbers its registers; 0: it gives addresses."""
+    bases: list[int] = field(default_factory=list)
+    settings: list[Row] = field(default_factory=list)
+    commands: list[Row] = field(default_factory=list)
+    words: list[Row] = field(default_factory=list)
+    """Rows that are written."""
+    shown: list[Row] = field(default_factory=list)
+    """Rows that are read alone."""
+    status: dict[str, Row] = field(default_factory=dict)
+    """What pins show, by their names: a condition."""
+    states: list[Row] = field(default_factory=list)
+    absent: list[Row] = field(default_factory=list)
+
+    def maybe(self, part: float = 0.5) -> bool:
+        """With a chance."""
+        return self.chance.random() < part
+
+    def place(self, number: int) -> str:
+        """A register as this manual writes it."""
+        return str(number + self.numbers) if self.numbers else hexadecimal(number)
+
+    def named(self, name: str, **keys: object) -> Row:
+        """A row with its name, as the language of the manual wants it."""
+        own = {"en": {}, "zh": {"zh": f"名称 {name}"}, "de": {"wording": f"Bezeichnung {name}"}}[self.language]
+        return {"name": name, **own, **keys}
+
+    def text(self, words: str) -> Row:
+        """A text in the manual's language."""
+        own = {"en": {}, "zh": {"zh": f"文字 {words}"}, "de": {"wording": f"Wortlaut {words}"}}[self.language]
+        return {"en": words, **own}
+
+    def bits(self, number: int) -> list[int]:
+        """So many different bits of a word."""
+        return self.chance.sample(range(16), number)
+
+
+def moved(place: str, number: int) -> str:
+    """A register so many further on."""
+    return hexadecimal(int(place[:-1], 16) + number) if place.endswith("H") else str(int(place) + number)
+
+
+def bit(number: int | str) -> str | int:
+    """A bit as maps write it."""
+    return number if isinstance(number, str) or number < 10 else f"{number:X}"
+
+
+# ---------------------------------------------------------------- commands
+
+
+def by_values(sheet: Sheet, at: int) -> None:
+    """One word, one value for each command."""
+    kinds = {"run_forward": ("Run forward", ["starts"]), "run_reverse": ("Run reverse", ["starts", "reverses"]),
+             "stop": ("Stop", ["stops"])}  # fmt: skip
+    if sheet.maybe():
+        kinds |= {"jog_forward": ("Jog forward", ["jogs"]), "jog_reverse": ("Jog reverse", ["jogs", "reverses"]),
+                  "jog_stop": ("End of the jog", ["ends_jog"])}  # fmt: skip
+    kinds |= some(sheet, {
+        "quick_stop": ("Quick stop", ["quick_stops"]), "coast_stop": ("Coast stop", ["coasts"]),
+        "fault_reset": ("Fault reset", ["resets"]),
+    })  # fmt: skip
+    values = sheet.chance.sample(range(1, 40), len(kinds))
+    listed = [sheet.named(name, value=value, does=does)
+              for value, (name, does) in zip(values, kinds.values(), strict=True)]  # fmt: skip
+    sheet.words.append(sheet.named("Run command", address=sheet.place(at), values=listed))
+    sheet.commands += [{"does": does, "register": sheet.place(at), "value": value, "source": "table 1"}
+                       for does, value in zip(kinds, values, strict=True)]  # fmt: skip
+
+
+def some(sheet: Sheet, of: dict[str, Any], part: float = 0.6) -> dict[str, Any]:
+    """Some of these."""
+    return {name: each for name, each in of.items() if sheet.maybe(part)}
+
+
+def by_bits(sheet: Sheet, at: int) -> None:
+    """A run bit by its level, a bit for the direction; perhaps active low, perhaps stops and a reset of their own."""
+    run, back, reset, quick, coast = sheet.bits(5)
+    low = sheet.maybe(0.3)
+    rows = [{"bit": bit(run), **({"does": ["stops"], "at_0": ["starts"], "symbol": "NoRun"} if low else
+                                 {"does": ["starts"], "at_0": ["stops"]})} | sheet.named("Run"),
+            {"bit": bit(back), "does": ["reverses"]} | sheet.named("Reverse")]  # fmt: skip
+    off = "set" if low else "clear"
+    word = sheet.place(at)
+    ways: dict[str, dict[str, list[int]]] = {
+        "run_forward": {"set": [run], "clear": [back]}, "run_reverse": {"set": [run, back]}, "stop": {off: [run]},
+    }  # fmt: skip
+    if low:
+        ways |= {"run_forward": {"clear": [run, back]}, "run_reverse": {"clear": [run], "set": [back]}}
+    if sheet.maybe():
+        rows.append({"bit": bit(reset), "does": ["resets"]} | sheet.named("Fault reset"))
+        ways["fault_reset"] = {"set": [reset]} | ({"set": [reset, run]} if low else {"clear": [run]})
+    if sheet.maybe(0.4):
+        rows.append({"bit": bit(quick), "does": ["quick_stops"], "holds": True} | sheet.named("Quick stop"))
+        ways["quick_stop"] = {"set": [quick, run]} if low else {"set": [quick], "clear": [run]}
+    if sheet.maybe(0.4):
+        rows.append({"bit": bit(coast), "does": ["coasts"], "holds": True} | sheet.named("Coast stop"))
+        ways["coast_stop"] = {"set": [coast, run]} if low else {"set": [coast], "clear": [run]}
+    used = {each for row in rows for each in (int(str(row["bit"]), 16),)}
+    stops = {"quick_stop": quick, "coast_stop": coast}
+    for does, way in ways.items():
+        own = way.get("set", [])
+        others = [each for name, each in stops.items() if name in ways and each not in own]
+        others += [reset] if "fault_reset" in ways and reset not in own else []
+        way["clear"] = sorted({*way.get("clear", []), *others} & used)
+        hexed = {key: [bit(each) for each in numbers] for key, numbers in way.items() if numbers}
+        sheet.commands.append({"does": does, "register": word, **hexed, "source": "table 1"})
+    sheet.words.append(sheet.named("Run command", address=word, bits=rows))
+
+
+def by_pulse(sheet: Sheet, at: int) -> None:
+    """Start and stop by edges, each bit back at 0 after a pulse."""
+    forward, reverse, stop, reset = sheet.bits(4)
+    word, table = sheet.place(at), {"source": "table 1"}
+    rows = [sheet.named("Start forward", bit=bit(forward), does=["starts"], by="edge"),
+            sheet.named("Start reverse", bit=bit(reverse), does=["starts", "reverses"], by="edge"),
+            sheet.named("Stop", bit=bit(stop), does=["stops"]),
+            sheet.named("Fault reset", bit=bit(reset), does=["resets"])]  # fmt: skip
+    sheet.words.append(sheet.named("Run command", address=word, bits=rows))
+    every = {forward, reverse, stop}
+    for does, own in (("run_forward", forward), ("run_reverse", reverse)):
+        others = [bit(each) for each in every - {own}]
+        pulse = {"register": word, "set": [bit(own)], "clear": others, "for_ms": sheet.chance.choice((50, 100, 250))}
+        sheet.commands.append({"does": does, "register": word, "clear": [bit(each) for each in every], "first": [pulse],
+                               **table})  # fmt: skip
+    sheet.commands.append({"does": "stop", "register": word, "set": [bit(stop)],
+                           "clear": [bit(forward), bit(reverse)], **table})  # fmt: skip
+    pulse = {"register": word, "set": [bit(reset)], "for_ms": 50}
+    sheet.commands.append({"does": "fault_reset", "register": word, "clear": [bit(reset)], "first": [pulse], **table})
+
+
+def by_path(sheet: Sheet, at: int) -> None:
+    """The states of PROFIdrive, its bits in their places."""
+    word, because = sheet.place(at), "the ramp stays enabled"
+    held = {"holds": True}
+    rows = [sheet.named("Switch on", bit=0, does=["starts"], by="edge", at_0=["stops"]),
+            sheet.named("No coast stop", bit=1, does=["enables"], at_0=["coasts"], **held),
+            sheet.named("No quick stop", bit=2, does=["enables"], at_0=["quick_stops"], **held),
+            sheet.named("Enable operation", bit=3, does=["enables"], at_0=["coasts"], **held),
+            *(sheet.named(name, bit=number, does=["enables"]) for number, name in enumerate(
+                ("Enable ramp", "Release ramp", "Enable setpoint"), start=4)),
+            sheet.named("Acknowledge fault", bit=7, does=["resets"], by="edge"),
+            sheet.named("Control by PLC", bit="A", does=["enables"], at_0=["hands_over"]),
+            sheet.named("Reverse", bit="B", does=["reverses"])]  # fmt: skip
+    sheet.words.append(sheet.named("Control word", address=word, bits=rows))
+    step = {"register": word, "value": "047EH", "until": "ready_to_switch_on"}
+    if sheet.maybe(0.3):
+        step["for_ms"] = 100
+    ways = {"run_forward": ("047FH", [step]), "run_reverse": ("0C7FH", [step]), "stop": ("047EH", [])}
+    ways |= some(sheet, {"quick_stop": ("047AH", []), "coast_stop": ("047CH", []),
+                         "fault_reset": ("04FEH", [{"register": word, "value": "047EH"}])})  # fmt: skip
+    for does, (value, first) in ways.items():
+        sheet.commands.append({"does": does, "register": word, "value": value, "because": because, "source": "table 1"}
+                              | ({"first": first} if first else {}))  # fmt: skip
+
+
+def by_two(sheet: Sheet, at: int) -> None:
+    """The direction has a register of its own."""
+    turns, run = sheet.place(at + 2), sheet.place(at)
+    values = sheet.chance.sample(range(1, 9), 3)
+    sheet.words.append(
+        sheet.named(
+            "Direction",
+            address=turns,
+            values=[
+                sheet.named("Forward", value=0, does=["forward"]),
+                sheet.named("Reverse", value=1, does=["reverses"]),
+            ],
+        )
+    )
+    kinds = [("Stop", 0, "stops"), ("Run", values[0], "starts"), ("Coast", values[1], "coasts"),
+             ("Reset", values[2], "resets")]  # fmt: skip
+    sheet.words.append(
+        sheet.named(
+            "Run command",
+            address=run,
+            values=[sheet.named(name, value=value, does=[does]) for name, value, does in kinds],
+        )
+    )
+    for does, value, way in (("run_forward", values[0], 0), ("run_reverse", values[0], 1), ("stop", 0, None),
+                             ("coast_stop", values[1], None), ("fault_reset", values[2], None)):  # fmt: skip
+        first = [] if way is None else [{"register": turns, "value": way}]
+        sheet.commands.append({"does": does, "register": run, "value": value, "source": "table 1"}
+                              | ({"first": first} if first else {}))  # fmt: skip
+
+
+SHAPES = (by_values, by_values, by_bits, by_bits, by_pulse, by_path, by_two)
+
+
+# ---------------------------------------------------------------- reference, status, measures
+
+
+def reference(sheet: Sheet, at: int) -> Row:
+    """How the speed is given; where its sign reverses, no other command does."""
+    means = sheet.chance.choice(("frequency", "frequency", "percent_of_maximum", "fraction_of_full_scale", "speed"))
+    row = sheet.named("Speed reference", address=sheet.place(at))
+    said: Row = {"register": row["address"], "means": means, "source": "table 1"}
+    if means == "fraction_of_full_scale":
+        said |= {"full_scale": hexadecimal(sheet.chance.choice((0x4000, 10000, 0x2000)))}
+        said |= {"full_scale_hz": 50} if sheet.maybe() else {"maximum": "P1.01"}
+    else:
+        unit, factor = {"frequency": ("Hz", sheet.chance.choice((0.01, 0.1))), "percent_of_maximum": ("%", 0.01),
+                        "speed": ("r/min", sheet.chance.choice((1, 0.5)))}[means]  # fmt: skip
+        row |= {"unit": unit, "scale": {"factor": factor, "source": "table 1"}}
+        if means == "percent_of_maximum":
+            said["maximum"] = "P1.01"
+        if sheet.maybe(0.2):
+            sheet.settings.append(sheet.named("Unit of the reference", id="P2.11", source="section 1", values=[
+                sheet.named("Small", value=0), sheet.named("Large", value=1)],
+                needed={"value": 1, "why": "the scale of the reference rests on it"}))  # fmt: skip
+            row["scale"]["needs"] = {"setting": "P2.11", "value": 1}
+    sheet.words.append(row)
+    if sheet.maybe(0.2):
+        back = next(each for each in sheet.commands if each["does"] == "run_reverse")
+        forward = next(each for each in sheet.commands if each["does"] == "run_forward")
+        back.clear()
+        back |= forward | {"does": "run_reverse", "negative": True}
+        row["signed"], said["negative_reverses"] = True, True
+    return said
+
+
+def status_word(sheet: Sheet, at: int) -> None:
+    """Bits in any place; what pins show of them."""
+    word = sheet.place(at)
+    if sheet.states or any("until" in step for one in sheet.commands for step in one.get("first", ())):
+        names = {"Ready to switch on": 0, "Ready to operate": 1, "Operation enabled": 2, "Fault": 3,
+                 "Switching on inhibited": 6, "Warning": 7, "Speed reached": 8, "Turns in reverse": 14}  # fmt: skip
+        sheet.states.append({"name": "ready_to_switch_on", "register": word, "mask": "0045H", "equals": "0001H",
+                             "source": "table 2"})  # fmt: skip
+        running = {"register": word, "mask": "0007H", "equals": "0007H"}
+        sheet.status |= {"running": running, "ready": {"register": word, "mask": "0041H", "equals": "0001H"}}
+        shown = {"reverse": 14, "fault": 3, "warning": 7, "at_speed": 8}
+        still = {"register": word, "bit": 2, "equals": 0}
+    else:
+        kinds = {"running": "Running", "reverse": "Turns in reverse"} | some(sheet, {
+            "fault": "Fault", "ready": "Ready", "at_speed": "Speed reached", "warning": "Warning",
+            "limit": "Limit reached"})  # fmt: skip
+        shown = dict(zip(kinds, sheet.bits(len(kinds)), strict=True))
+        names = {name: shown[kind] for kind, name in kinds.items()}
+        still = {"register": word, "bit": bit(shown["running"]), "equals": 0}
+    sheet.status |= {kind: {"register": word, "bit": bit(number), "equals": 1} for kind, number in shown.items()
+                     if kind not in sheet.status}  # fmt: skip
+    sheet.status["standstill"] = still
+    rows = [sheet.named(name, bit=bit(number)) for name, number in names.items()]
+    free = sorted({*range(16)} - {*names.values()})
+    if sheet.maybe(0.3):
+        rows.append({"bit": bit(free[0]), "unused": True})
+    sheet.shown.append(sheet.named("Drive status", address=word, bits=rows))
+
+
+def measures(sheet: Sheet, at: int) -> list[Row]:
+    """The output frequency, and some others, in any order."""
+    found, place = [], at
+    kinds = ["output_frequency", *sheet.chance.sample(sorted(UNITS), sheet.chance.randint(0, 6))]
+    sheet.chance.shuffle(kinds)
+    for kind in kinds:
+        name, unit, factor = UNITS.get(kind, ("Output frequency", "Hz", sheet.chance.choice((0.01, 0.1))))
+        wide = kind in ("energy", "operating_time") and sheet.maybe()
+        row = sheet.named(name, address=sheet.place(place), unit=unit)
+        if wide:
+            row |= {"address": f"{sheet.place(place)}-{sheet.place(place + 1)}", "words": 2}
+            row |= {"order": "low_first"} if sheet.maybe() else {}
+        if not (kind in SCALED_BY_SETTING and sheet.maybe(0.2)):
+            row["scale"] = {"factor": factor, "source": "table 2"}
+            if kind == "output_current" and sheet.maybe(0.4):
+                row["scale"] |= decimals(sheet, at + 0x40, factor)
+        if kind in ("output_torque", "output_speed") and sheet.maybe():
+            row["signed"] = True
+        if sheet.maybe(0.1):
+            row["note"] = "the mean of a second"
+        sheet.shown.append(row)
+        found.append({"shows": kind, "register": sheet.place(place), "source": "table 2"})
+        place += 1 + wide + (sheet.maybe(0.3) and sheet.chance.randint(1, 9))
+    return found
+
+
+def decimals(sheet: Sheet, at: int, factor: float) -> Row:
+    """A register says how many decimals a measure has."""
+    sheet.shown.append(
+        sheet.named(
+            "Decimals",
+            address=sheet.place(at),
+            bits=[{"bit": "0-7", "unused": True}, sheet.named("Decimals of the current", bit="8-F")],
+        )
+    )
+    when = [{"register": sheet.place(at), "bit": "8-F", "equals": number} for number in (1, 2)]
+    return {"when": when[0], "otherwise": [{"factor": factor / 10, "when": when[1], "source": "table 2"}]}
+
+
+# ---------------------------------------------------------------- faults, serial line, settings
+
+
+def faults(sheet: Sheet, at: int) -> Row:
+    """Codes in a register; perhaps with warnings in its other half, or in a register of their own."""
+    codes = sheet.chance.sample(range(1, 120), sheet.chance.randint(1, 12))
+    half = sheet.maybe(0.2)
+    row = sheet.named("Present fault", address=sheet.place(at))
+    if half:
+        row["bits"] = [sheet.named("Fault code", bit="0-7"), sheet.named("Other code", bit="8-F")]
+    sheet.shown.append(row)
+    made: Row = {"source": "table 3", "registers": [sheet.place(at)], "present": sheet.place(at)}
+    made |= {"present_bits": "0-7"} if half else {}
+    made["codes"] = [sheet.named(f"Trouble {code}", code=f"{code:02X}H", id=f"E{code}") for code in codes]
+    if sheet.maybe(0.4):
+        motor = sheet.chance.choice(("coasts", "ramps", "differs"))
+        made["trip_output"] = {"motor": motor, "source": "table 3"} | (
+            {"note": "by the fault"} if motor == "differs" else {}
+        )
+    return made
+
+
+def warnings(sheet: Sheet, at: int) -> Row:
+    """Warning codes in a register of their own."""
+    sheet.shown.append(sheet.named("Present warning", address=sheet.place(at)))
+    return {"source": "table 4", "register": sheet.place(at),
+            "codes": [sheet.named(f"Care {code}", code=f"{code:02X}H") for code in (5, 9)]}  # fmt: skip
+
+
+def serial(sheet: Sheet) -> Row:
+    """Rates, formats, addresses; some fixed, some chosen by settings."""
+    made: Row = {"interface": sheet.text("RS-485"), "mode": {"modes": ["rtu"], "source": "section 1"}}
+    why = {"why": "as the PLC has it"}
+    if sheet.maybe(0.7):
+        rates = sorted(sheet.chance.sample((4800, 9600, 19200, 38400, 57600, 115200), 3))
+        made["baud"] = {"setting": "P3.02", "default": 1, "source": "section 1",
+                        "codes": [{"code": code, "baud": rate} for code, rate in enumerate(rates)]}  # fmt: skip
+        sheet.settings.append(sheet.named("Bit rate", id="P3.02", source="section 1", default="1", needed=why,
+                                          range={"min": 0, "max": 2}))  # fmt: skip
+    if sheet.maybe(0.7):
+        forms = [("none", 2), ("even", 1), ("odd", 1), ("none", 1)]
+        made["format"] = {"setting": "P3.03", "source": "section 1", "default": sheet.chance.randint(0, 3), "codes": [
+            {"code": code, "parity": parity, "data_bits": 8, "stop_bits": stops}
+            for code, (parity, stops) in enumerate(forms)]}  # fmt: skip
+        sheet.settings.append(sheet.named("Format", id="P3.03", source="section 1", needed=why,
+                                          range={"min": 0, "max": 3}))  # fmt: skip
+    made["unit"] = {"min": 1, "max": sheet.chance.choice((32, 99, 247)), "source": "section 1"}
+    if sheet.maybe():
+        made["unit"] |= {"setting": "P3.00", "default": sheet.chance.choice((0, 1))}
+        made["unit"] |= {"no_address": 0} if made["unit"]["default"] == 0 else {}
+        sheet.settings.append(sheet.named("Unit address", id="P3.00", source="section 1", needed=why,
+                                          default=str(made["unit"]["default"]), range={"min": 0, "max": made["unit"]["max"]}))  # fmt: skip
+    if sheet.maybe(0.3):
+        made["silence"] = {"source": "section 1"} | sheet.chance.choice(
+            ({"characters": 3.5}, {"milliseconds": 10}, {"characters": 3.5, "gap_characters": 1.5})
+        )
+    if sheet.maybe(0.3):
+        made["reply_delay"] = {"setting": "P3.06", "milliseconds": 1, "source": "section 1"}
+        sheet.settings.append(sheet.named("Delay of replies", id="P3.06", source="section 1", default="5",
+                                          range={"min": 0, "max": 50}))  # fmt: skip
+    if sheet.maybe(0.3):
+        made["broadcast"] = {"address": 0, "replies": False, "source": "section 1"}
+    return made
+
+
+def watchdog(sheet: Sheet, code: str) -> Row:
+    """What the drive does when its line is silent."""
+    does = sheet.chance.sample(sorted(TIMES), sheet.chance.randint(1, 3))
+    made: Row = {"source": "section 1", "reactions": [{"does": does[0]}]}
+    if sheet.maybe(0.8):
+        made["feeds"] = sheet.chance.choice(("any", "read", "reference", "run"))
+    if len(does) > 1:
+        made |= {"chosen_by": "P3.05", "reactions": [{"value": at, "does": each} for at, each in enumerate(does)]}
+        sheet.settings.append(sheet.named("Reaction to silence", id="P3.05", source="section 1", needed={
+            "why": "never run on"}, values=[sheet.named(TIMES[each], value=at) for at, each in enumerate(does)]))  # fmt: skip
+    if sheet.maybe(0.7):
+        made["time"] = {"setting": "P3.04", "milliseconds": 100, "source": "section 1"}
+        made["disabled_by"] = {"setting": "P3.04", "value": 0}
+        sheet.settings.append(sheet.named("Time-out", id="P3.04", source="section 1", range={"min": 0, "max": 600},
+                                          needed={"why": "0 is off"}))  # fmt: skip
+    elif made["reactions"] == [{"does": "runs_on"}]:
+        made["reactions"] = [{"does": "trips"}]
+    if any(each["does"] == "trips" for each in made["reactions"]):
+        made["fault"] = code
+    return made
+
+
+def storage(sheet: Sheet, at: int) -> Row:
+    """Whether a written parameter is kept."""
+    rows = [sheet.named(name, id=f"P1.0{number}", address=sheet.place(at + number), **keys)
+            for number, (name, keys) in enumerate(
+                (("Maximum frequency", {"unit": "Hz", "scale": {"factor": 0.1, "source": "table 4"}}),
+                 ("Ramp up", {"unit": "s", "scale": {"factor": 0.1, "source": "table 4"}}), ("Ramp down", {})), start=1)]  # fmt: skip
+    sheet.words += rows
+    kind = sheet.chance.choice(("unexplained", "volatile", "enter_register", "by_setting", "ram_twin"))
+    made: Row = {"method": kind, "source": "section 4", "note": "as section 4 says"}
+    if kind == "enter_register":
+        sheet.words.append(sheet.named("Store all", address=sheet.place(at + 0x20)))
+        made |= {"register": sheet.place(at + 0x20), "value": 1}
+    elif kind == "by_setting":
+        sheet.settings.append(sheet.named("Memory of writes", id="P3.07", source="section 1", values=[
+            sheet.named("EEPROM", value=0), sheet.named("RAM", value=1)],
+            needed={"value": 1, "why": "references are written again and again"}))  # fmt: skip
+        made["ram_when"] = {"setting": "P3.07", "value": 1}
+    elif kind == "ram_twin":
+        sheet.words.append(sheet.named("Ramp up in RAM", address=sheet.place(at + 0x30)))
+        made["twins"] = [{"stored": sheet.place(at + 2), "ram": sheet.place(at + 0x30)}]
+    return made
+
+
+def frames(sheet: Sheet, register: int) -> list[Row]:
+    """A request of the manual, with its checksum."""
+    data = bytes([1, 3, *register.to_bytes(2, "big"), 0, 1])
+    sent = (data + crc16(data).to_bytes(2, "little")).hex(" ").upper()
+    return [{"id": "request", "direction": "request", "mode": "rtu", "source": "section 2", "printed": sent,
+             "checksum": "right", "correct": sent, "means": {
+                 "says": "reads the status", "unit": 1, "function": "03H", "address": sheet.place(register), "words": 1}}]  # fmt: skip
+
+
+# ---------------------------------------------------------------- the map
+
+
+def table(name: str, access: str, rows: Sequence[Row], title: Row) -> Row:
+    """A table of registers."""
+    return {"id": name, "title": title, "source": "table 1", "access": access, "registers": list(rows)}
+
+
+def draw(seed: int) -> Row:
+    """A map."""
+    chance = Random(f"map {seed}")
+    sheet = Sheet(chance, chance.choice(LANGUAGES), chance.choice((0, 0, 0, 1, 40001)))
+    commands, shown, values, parameters = chance.sample(BASES, 4)
+    chance.choice(SHAPES)(sheet, commands)
+    speed = reference(sheet, commands + 1)
+    status_word(sheet, shown)
+    measured = measures(sheet, values)
+    trouble = faults(sheet, values + 0x80)
+    memory = storage(sheet, parameters)
+    operation: Row = {"commands": sheet.commands, "reference": speed}
+    stands = next(each["register"] for each in measured if each["shows"] == "output_frequency")
+    operation["standstill"] = {"all": [sheet.status.pop("standstill"), {"register": stands, "equals": 0}],
+                               "source": "table 2", "why": "it does not run, and its frequency is 0"}  # fmt: skip
+    operation["status"] = [{"shows": kind, "any": [one], "source": "table 2"} for kind, one in sheet.status.items()]
+    operation |= {"measures": measured} | ({"states": sheet.states} if sheet.states else {})
+    if sheet.maybe(0.3):
+        operation["own_maximum"] = {"register": sheet.place(parameters + 1), "source": "table 4"}
+    made = head(sheet, seed) | {"serial": serial(sheet)}
+    more: Row = {"storage": memory, "operation": operation, "faults": trouble}
+    more |= {"warnings": warnings(sheet, values + 0x90)} if sheet.maybe(0.3) else {}
+    more |= {"watchdog": watchdog(sheet, trouble["codes"][0]["code"])} if sheet.maybe(0.6) else {}
+    if sheet.maybe(0.3):
+        sheet.shown.append(sheet.named("Product code", address=sheet.place(values + 0xA0)))
+        more["identity"] = {"all": [{"register": sheet.place(values + 0xA0), "equals": hexadecimal(seed % 60000 + 1)}],
+                            "source": "table 2", "why": "each family has a code of its own"}  # fmt: skip
+    made |= rest(sheet, shown)
+    made["settings"] = sheet.settings
+    tables = [table("commands", "rw", sheet.words, sheet.text("Commands")),
+              table("status", "r", sheet.shown, sheet.text("Status"))]  # fmt: skip
+    return made | {"sections": tables} | more
+
+
+def head(sheet: Sheet, seed: int) -> Row:
+    """Who makes it, and how its manual numbers registers."""
+    made: Row = {"format": 1, "prefix": f"DR{seed}", "vendor": sheet.text("Drawn"), "family": sheet.text(f"Drawn {seed}"),
+                 "manual": {"language": sheet.language, "title": sheet.text("Manual"), "publisher": sheet.text("Drawn")},
+                 "id_forms": ["A9.99"]}  # fmt: skip
+    if sheet.maybe(0.2):
+        made["manual"]["edition"] = "2026"
+    if sheet.numbers:
+        made["numbering"] = {"first": sheet.numbers, "says": "less the first is sent", "source": "section 2"}
+    return made
+
+
+def rest(sheet: Sheet, shown: int) -> Row:
+    """Limits, functions, refusals, and what the manual tells in prose."""
+    functions = {3: "Read registers", 6: "Write register"} | ({16: "Write registers"} if sheet.maybe() else {})
+    most = sheet.chance.choice((2, 8, 16, 100) if any("words" in row for row in sheet.shown) else (1, 2, 8, 16, 100))
+    made: Row = {"limits": {"read_words": {"value": most, "source": "section 2"}}}
+    made["functions"] = [sheet.named(name, code=f"{code:02X}H", source="section 2") for code, name in functions.items()]
+    made["errors"] = {"source": "section 3", "codes": [sheet.named("Illegal address", code="02H")]}
+    if sheet.maybe(0.3):
+        made["errors"]["codes"].append(sheet.named("Busy", code="06H", busy=True))
+    if sheet.maybe(0.3):
+        made["errors"]["form"] = {"kind": "exception", "add": "80H", "source": "section 3"}
+    made["notices"] = [{"kind": kind, "text": sheet.text("Mind the shaft."), "source": "section 1"}
+                       for kind in ("prohibition", "warning", "hazard", "procedure") if sheet.maybe(0.2)]  # fmt: skip
+    made |= {"frames": frames(sheet, shown) if sheet.maybe() else [], "errata": []}
+    made["absent"] = [{"what": "how warm it may get", "about": ["serial"], "matters": "it wears out",
+                       "find_out": "ask the maker"}, *sheet.absent]  # fmt: skip
+    return made
+
+
+def text(seed: int) -> str:
+    """A map as a file."""
+    return written(draw(seed))
+
+
+def written(rows: Row) -> str:
+    """A map as a file, row by row."""
+    return yaml.dump(rows, Dumper=_Plain, allow_unicode=True, sort_keys=False, width=118)
+
+
+class _Plain(yaml.SafeDumper):
+    """Every row is written out."""
+
+    def ignore_aliases(self, data: object) -> bool:
+        """Maps have none."""
+        return True
+
+
+if __name__ == "__main__":
+    print(text(int(sys.argv[1])))

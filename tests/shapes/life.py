@@ -1,0 +1,156 @@
+"""A life of each map that is drawn at random: `driveblocks test` passes, and finds a simulated drive that lies.
+
+`python -m tests.shapes.life [--first SEED] [--count N] [--store FILE]` judges batches of them; a batch that is stored
+is not judged again. `--lies` gives each another fact than its block has, which some program has to find.
+"""
+
+import sys
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import fields, is_dataclass, replace
+from pathlib import Path
+from random import Random
+
+from tests.line.many import Judged, arguments, judged, summary
+from tests.shapes import drawn
+
+from driveblocks.maps import model
+from driveblocks.maps.collection import Source
+from driveblocks.maps.load import loads
+from driveblocks.maps.problem import MapError
+from driveblocks.output.units import units
+from driveblocks.render.text import languages
+from driveblocks.testing import runner
+from driveblocks.testing.unit import Unit
+from structured_text.engines.embedded.engine import EmbeddedEngine
+from structured_text.language.lint import lint_sources
+
+BATCH = 5
+"""Maps that are compiled together."""
+EACH = 20
+"""So many of them have each key of the format."""
+ENGLISH = languages(["en"], "utf-8")
+
+
+def made(seeds: Sequence[int]) -> list[Source]:
+    """Their maps, as `check` reads them. Raises MapError."""
+    return [Source(Path(f"d{seed}.yaml"), loads(drawn.text(seed), f"d{seed}.yaml")) for seed in seeds]
+
+
+def judge(name: str) -> Judged:
+    """Judge a batch: `20` is the one of seeds 20 to 24."""
+    out, first = Judged(name), int(name)
+    try:
+        some = made(range(first, first + BATCH))
+    except MapError as error:
+        out.tell("check", str(error))
+        return out
+    for source in some:
+        for key in keys(source.drive):
+            out.figures[key] = out.figures.get(key, 0) + 1
+    built = units(some, ENGLISH)[1:]
+    blocks = {each.path: each for unit in built for each in unit.blocks}
+    if wrong := lint_sources([(each.path, each.text) for each in blocks.values()]):
+        out.tell("lint", str(wrong[0]))
+    return _run(built, out)
+
+
+def _run(built: Sequence[Unit], out: Judged) -> Judged:
+    for result in runner.run(built, [EmbeddedEngine()]).results:
+        for bad in result.bad:
+            out.tell(result.program, f"{bad.words}: {bad.message}"[:300])
+    return out
+
+
+def keys(part: object) -> set[str]:
+    """The keys that a map has, as `Drive.watchdog`."""
+    found: set[str] = set()
+    if isinstance(part, tuple):
+        return found.union(*map(keys, part))
+    if is_dataclass(part) and type(part).__module__ == model.__name__:
+        for each in fields(part):
+            value = getattr(part, each.name)
+            if value not in (None, (), "", False):
+                found |= {f"{type(part).__name__}.{each.name}"} | keys(value)
+    return found
+
+
+# ---------------------------------------------------------------- lies
+
+
+def lie(name: str) -> Judged:
+    """Judge one whose simulated drive is another than the map of its block says."""
+    out, seed = Judged(name), int(name)
+    (true,) = made([seed])
+    rows, told = _another(drawn.draw(seed), Random(f"lie {seed}"))
+    try:
+        false = Source(true.path, loads(drawn.written(rows), "lie.yaml"))
+    except MapError:
+        return out  # `check` finds it
+    block, other = units([true], ENGLISH)[1], units([false], ENGLISH)[1]
+    found = _run([replace(other, blocks=block.blocks)], Judged(name))
+    if not found.told:
+        out.tell("believed", told)
+    return out
+
+
+def _another(rows: drawn.Row, chance: Random) -> tuple[drawn.Row, str]:
+    """One fact is another: a word of a command, a bit of the status, a scale, the present fault."""
+    operation = rows["operation"]
+    kind = chance.choice(("command", "status", "scale", "fault"))
+    if kind == "command":
+        one = chance.choice([each for each in operation["commands"] if "value" in each] or [operation["commands"][0]])
+        register = next(row for row in rows["sections"][0]["registers"] if row["address"] == one["register"])
+        values = register.get("values", [])
+        if values:
+            listed = next(each for each in values if each["value"] == one["value"])
+            for each in (*operation["commands"], *(s for c in operation["commands"] for s in c.get("first", ()))):
+                if each["register"] == one["register"] and each.get("value") == listed["value"]:
+                    each["value"] = 77
+            listed["value"] = 77
+            return rows, f"{one['does']} is 77"
+    if kind == "fault":
+        at = rows["faults"]["present"]
+        for row in rows["sections"][1]["registers"]:
+            if row["address"] == at:
+                row["address"] = drawn.moved(at, 5)
+        rows["faults"] |= {"present": drawn.moved(at, 5), "registers": [drawn.moved(at, 5)]}
+        return rows, f"the present fault is at {drawn.moved(at, 5)}"
+    if kind == "scale":
+        for row in rows["sections"][0]["registers"]:
+            if row["address"] == operation["reference"]["register"] and "scale" in row:
+                row["scale"]["factor"] *= 10
+                return rows, "the reference is ten times as large"
+    still = operation["standstill"]["all"][1]["register"]
+    for row in rows["sections"][1]["registers"]:
+        if row["address"] == still:
+            row["scale"]["factor"] *= 10
+    return rows, "the output frequency is ten times as large"
+
+
+def report(found: Sequence[Judged]) -> int:
+    """What they have shown, and which keys too few of them have; 1 where one failed."""
+    bad, count = summary(found), Counter[str]()
+    for each in found:
+        count.update({key: int(number) for key, number in each.figures.items()})
+    every = {f"{kind.__name__}.{each.name}" for kind in vars(model).values()
+             if is_dataclass(kind) and kind.__module__ == model.__name__ for each in fields(kind)}  # fmt: skip
+    rare = {key: count[key] for key in sorted(every) if count[key] < EACH}
+    print(f"keys: {len(every)}, fewer than {EACH} times: {rare}")
+    return bad
+
+
+def main() -> int:
+    """Judge."""
+    parser = arguments(__doc__ or "", 1000)
+    parser.add_argument("--only", help="one of them")
+    parser.add_argument("--lies", action="store_true", help="simulated drives that lie")
+    options = parser.parse_args()
+    step = 1 if options.lies else BATCH
+    names = [options.only] if options.only else [
+        str(options.first + at) for at in range(0, options.count, step)]  # fmt: skip
+    return report(judged(names, lie if options.lies else judge, options.jobs, options.store))
+
+
+if __name__ == "__main__":
+    sys.exit(main())
