@@ -77,6 +77,11 @@ RUNS = {
         "a minute",
         ("tests.line.owners",),
     ),
+    "drawn": Run(
+        "1,000 maps drawn at random, each with a life of its motor; 50 simulated drives that lie",
+        "an hour",
+        ("tests.shapes.life --store build/drawn.jsonl", "tests.shapes.life --lies --count 50"),
+    ),
     "matrix": Run(
         "every mode x event x state on second models of the drives, four times, and random walks (TIMES)",
         "an hour",

@@ -63,13 +63,22 @@ class Sheet:
 
     def named(self, name: str, **keys: object) -> Row:
         """A row with its name, as the language of the manual wants it."""
-        own = {"en": {}, "zh": {"zh": f"名称 {name}"}, "de": {"wording": f"Bezeichnung {name}"}}[self.language]
+        own: Row = {"en": {}, "zh": {"zh": f"名称 {name}"}, "de": {"wording": f"Bezeichnung {name}"}}[self.language]
         return {"name": name, **own, **keys}
 
     def text(self, words: str) -> Row:
         """A text in the manual's language."""
         own = {"en": {}, "zh": {"zh": f"文字 {words}"}, "de": {"wording": f"Wortlaut {words}"}}[self.language]
         return {"en": words, **own}
+
+    def setting(self, number: int, name: str, **keys: object) -> str:
+        """A setting of the keypad; its id."""
+        self.settings.append(self.named(name, id=f"P3.{number:02}", source="section 1", **keys))
+        return f"P3.{number:02}"
+
+    def listed(self, *names: str) -> list[Row]:
+        """Values from 0, with these names."""
+        return [self.named(name, value=value) for value, name in enumerate(names)]
 
     def bits(self, number: int) -> list[int]:
         """So many different bits of a word."""
@@ -117,7 +126,7 @@ def by_bits(sheet: Sheet, at: int) -> None:
     """A run bit by its level, a bit for the direction; perhaps active low, perhaps stops and a reset of their own."""
     run, back, reset, quick, coast = sheet.bits(5)
     low = sheet.maybe(0.3)
-    rows = [{"bit": bit(run), **({"does": ["stops"], "at_0": ["starts"], "symbol": "NoRun"} if low else
+    rows: list[Row] = [{"bit": bit(run), **({"does": ["stops"], "at_0": ["starts"], "symbol": "NoRun"} if low else
                                  {"does": ["starts"], "at_0": ["stops"]})} | sheet.named("Run"),
             {"bit": bit(back), "does": ["reverses"]} | sheet.named("Reverse")]  # fmt: skip
     off = "set" if low else "clear"
@@ -183,10 +192,14 @@ def by_path(sheet: Sheet, at: int) -> None:
             sheet.named("Control by PLC", bit="A", does=["enables"], at_0=["hands_over"]),
             sheet.named("Reverse", bit="B", does=["reverses"])]  # fmt: skip
     sheet.words.append(sheet.named("Control word", address=word, bits=rows))
-    step = {"register": word, "value": "047EH", "until": "ready_to_switch_on"}
+    step: Row = {"register": word, "value": "047EH", "until": "ready_to_switch_on"}
     if sheet.maybe(0.3):
         step["for_ms"] = 100
-    ways = {"run_forward": ("047FH", [step]), "run_reverse": ("0C7FH", [step]), "stop": ("047EH", [])}
+    ways: dict[str, tuple[str, list[Row]]] = {
+        "run_forward": ("047FH", [step]),
+        "run_reverse": ("0C7FH", [step]),
+        "stop": ("047EH", []),
+    }
     ways |= some(sheet, {"quick_stop": ("047AH", []), "coast_stop": ("047CH", []),
                          "fault_reset": ("04FEH", [{"register": word, "value": "047EH"}])})  # fmt: skip
     for does, (value, first) in ways.items():
@@ -245,10 +258,9 @@ def reference(sheet: Sheet, at: int) -> Row:
         if means == "percent_of_maximum":
             said["maximum"] = "P1.01"
         if sheet.maybe(0.2):
-            sheet.settings.append(sheet.named("Unit of the reference", id="P2.11", source="section 1", values=[
-                sheet.named("Small", value=0), sheet.named("Large", value=1)],
-                needed={"value": 1, "why": "the scale of the reference rests on it"}))  # fmt: skip
-            row["scale"]["needs"] = {"setting": "P2.11", "value": 1}
+            needed = {"value": 1, "why": "the scale of the reference rests on it"}
+            unit = sheet.setting(11, "Unit of the reference", values=sheet.listed("Small", "Large"), needed=needed)
+            row["scale"]["needs"] = {"setting": unit, "value": 1}
     sheet.words.append(row)
     if sheet.maybe(0.2):
         back = next(each for each in sheet.commands if each["does"] == "run_reverse")
@@ -359,36 +371,34 @@ def warnings(sheet: Sheet, at: int) -> Row:
 def serial(sheet: Sheet) -> Row:
     """Rates, formats, addresses; some fixed, some chosen by settings."""
     made: Row = {"interface": sheet.text("RS-485"), "mode": {"modes": ["rtu"], "source": "section 1"}}
-    why = {"why": "as the PLC has it"}
+    why: Row = {"why": "as the PLC has it"}
+    source: Row = {"source": "section 1"}
     if sheet.maybe(0.7):
         rates = sorted(sheet.chance.sample((4800, 9600, 19200, 38400, 57600, 115200), 3))
-        made["baud"] = {"setting": "P3.02", "default": 1, "source": "section 1",
-                        "codes": [{"code": code, "baud": rate} for code, rate in enumerate(rates)]}  # fmt: skip
-        sheet.settings.append(sheet.named("Bit rate", id="P3.02", source="section 1", default="1", needed=why,
-                                          range={"min": 0, "max": 2}))  # fmt: skip
+        codes = [{"code": code, "baud": rate} for code, rate in enumerate(rates)]
+        setting = sheet.setting(2, "Bit rate", default="1", needed=why, range={"min": 0, "max": 2})
+        made["baud"] = {"setting": setting, "default": 1, "codes": codes} | source
     if sheet.maybe(0.7):
-        forms = [("none", 2), ("even", 1), ("odd", 1), ("none", 1)]
-        made["format"] = {"setting": "P3.03", "source": "section 1", "default": sheet.chance.randint(0, 3), "codes": [
-            {"code": code, "parity": parity, "data_bits": 8, "stop_bits": stops}
-            for code, (parity, stops) in enumerate(forms)]}  # fmt: skip
-        sheet.settings.append(sheet.named("Format", id="P3.03", source="section 1", needed=why,
-                                          range={"min": 0, "max": 3}))  # fmt: skip
-    made["unit"] = {"min": 1, "max": sheet.chance.choice((32, 99, 247)), "source": "section 1"}
+        forms = enumerate((("none", 2), ("even", 1), ("odd", 1), ("none", 1)))
+        codes = [
+            {"code": code, "parity": parity, "data_bits": 8, "stop_bits": stops} for code, (parity, stops) in forms
+        ]
+        setting = sheet.setting(3, "Format", needed=why, range={"min": 0, "max": 3})
+        made["format"] = {"setting": setting, "default": sheet.chance.randint(0, 3), "codes": codes} | source
+    made["unit"] = source | {"min": 1, "max": sheet.chance.choice((32, 99, 247))}
     if sheet.maybe():
-        made["unit"] |= {"setting": "P3.00", "default": sheet.chance.choice((0, 1))}
-        made["unit"] |= {"no_address": 0} if made["unit"]["default"] == 0 else {}
-        sheet.settings.append(sheet.named("Unit address", id="P3.00", source="section 1", needed=why,
-                                          default=str(made["unit"]["default"]), range={"min": 0, "max": made["unit"]["max"]}))  # fmt: skip
+        first = sheet.chance.choice((0, 1))
+        limits = {"min": 0, "max": made["unit"]["max"]}
+        setting = sheet.setting(0, "Unit address", needed=why, default=str(first), range=limits)
+        made["unit"] |= {"setting": setting, "default": first} | ({} if first else {"no_address": 0})
     if sheet.maybe(0.3):
-        made["silence"] = {"source": "section 1"} | sheet.chance.choice(
-            ({"characters": 3.5}, {"milliseconds": 10}, {"characters": 3.5, "gap_characters": 1.5})
-        )
+        kinds: tuple[Row, ...] = ({"characters": 3.5}, {"milliseconds": 10}, {"characters": 3.5, "gap_characters": 1.5})
+        made["silence"] = source | sheet.chance.choice(kinds)
     if sheet.maybe(0.3):
-        made["reply_delay"] = {"setting": "P3.06", "milliseconds": 1, "source": "section 1"}
-        sheet.settings.append(sheet.named("Delay of replies", id="P3.06", source="section 1", default="5",
-                                          range={"min": 0, "max": 50}))  # fmt: skip
+        setting = sheet.setting(6, "Delay of replies", default="5", range={"min": 0, "max": 50})
+        made["reply_delay"] = {"setting": setting, "milliseconds": 1} | source
     if sheet.maybe(0.3):
-        made["broadcast"] = {"address": 0, "replies": False, "source": "section 1"}
+        made["broadcast"] = source | {"address": 0, "replies": False}
     return made
 
 
@@ -399,14 +409,13 @@ def watchdog(sheet: Sheet, code: str) -> Row:
     if sheet.maybe(0.8):
         made["feeds"] = sheet.chance.choice(("any", "read", "reference", "run"))
     if len(does) > 1:
-        made |= {"chosen_by": "P3.05", "reactions": [{"value": at, "does": each} for at, each in enumerate(does)]}
-        sheet.settings.append(sheet.named("Reaction to silence", id="P3.05", source="section 1", needed={
-            "why": "never run on"}, values=[sheet.named(TIMES[each], value=at) for at, each in enumerate(does)]))  # fmt: skip
+        names = sheet.listed(*(TIMES[each] for each in does))
+        made["chosen_by"] = sheet.setting(5, "Reaction to silence", needed={"why": "never run on"}, values=names)
+        made["reactions"] = [{"value": at, "does": each} for at, each in enumerate(does)]
     if sheet.maybe(0.7):
-        made["time"] = {"setting": "P3.04", "milliseconds": 100, "source": "section 1"}
-        made["disabled_by"] = {"setting": "P3.04", "value": 0}
-        sheet.settings.append(sheet.named("Time-out", id="P3.04", source="section 1", range={"min": 0, "max": 600},
-                                          needed={"why": "0 is off"}))  # fmt: skip
+        setting = sheet.setting(4, "Time-out", range={"min": 0, "max": 600}, needed={"why": "0 is off"})
+        made["time"] = {"setting": setting, "milliseconds": 100, "source": "section 1"}
+        made["disabled_by"] = {"setting": setting, "value": 0}
     elif made["reactions"] == [{"does": "runs_on"}]:
         made["reactions"] = [{"does": "trips"}]
     if any(each["does"] == "trips" for each in made["reactions"]):
@@ -416,21 +425,18 @@ def watchdog(sheet: Sheet, code: str) -> Row:
 
 def storage(sheet: Sheet, at: int) -> Row:
     """Whether a written parameter is kept."""
-    rows = [sheet.named(name, id=f"P1.0{number}", address=sheet.place(at + number), **keys)
-            for number, (name, keys) in enumerate(
-                (("Maximum frequency", {"unit": "Hz", "scale": {"factor": 0.1, "source": "table 4"}}),
-                 ("Ramp up", {"unit": "s", "scale": {"factor": 0.1, "source": "table 4"}}), ("Ramp down", {})), start=1)]  # fmt: skip
-    sheet.words += rows
+    for number, (name, unit) in enumerate((("Maximum frequency", "Hz"), ("Ramp up", "s"), ("Ramp down", "")), start=1):
+        keys = {"unit": unit, "scale": {"factor": 0.1, "source": "table 4"}} if unit else {}
+        sheet.words.append(sheet.named(name, id=f"P1.0{number}", address=sheet.place(at + number), **keys))
     kind = sheet.chance.choice(("unexplained", "volatile", "enter_register", "by_setting", "ram_twin"))
     made: Row = {"method": kind, "source": "section 4", "note": "as section 4 says"}
     if kind == "enter_register":
         sheet.words.append(sheet.named("Store all", address=sheet.place(at + 0x20)))
         made |= {"register": sheet.place(at + 0x20), "value": 1}
     elif kind == "by_setting":
-        sheet.settings.append(sheet.named("Memory of writes", id="P3.07", source="section 1", values=[
-            sheet.named("EEPROM", value=0), sheet.named("RAM", value=1)],
-            needed={"value": 1, "why": "references are written again and again"}))  # fmt: skip
-        made["ram_when"] = {"setting": "P3.07", "value": 1}
+        needed = {"value": 1, "why": "references are written again and again"}
+        setting = sheet.setting(7, "Memory of writes", values=sheet.listed("EEPROM", "RAM"), needed=needed)
+        made["ram_when"] = {"setting": setting, "value": 1}
     elif kind == "ram_twin":
         sheet.words.append(sheet.named("Ramp up in RAM", address=sheet.place(at + 0x30)))
         made["twins"] = [{"stored": sheet.place(at + 2), "ram": sheet.place(at + 0x30)}]
@@ -441,9 +447,9 @@ def frames(sheet: Sheet, register: int) -> list[Row]:
     """A request of the manual, with its checksum."""
     data = bytes([1, 3, *register.to_bytes(2, "big"), 0, 1])
     sent = (data + crc16(data).to_bytes(2, "little")).hex(" ").upper()
-    return [{"id": "request", "direction": "request", "mode": "rtu", "source": "section 2", "printed": sent,
-             "checksum": "right", "correct": sent, "means": {
-                 "says": "reads the status", "unit": 1, "function": "03H", "address": sheet.place(register), "words": 1}}]  # fmt: skip
+    means = {"says": "reads the status", "unit": 1, "function": "03H", "address": sheet.place(register), "words": 1}
+    kind = {"id": "request", "direction": "request", "mode": "rtu", "source": "section 2"}
+    return [kind | {"printed": sent, "checksum": "right", "correct": sent, "means": means}]
 
 
 # ---------------------------------------------------------------- the map
@@ -490,9 +496,9 @@ def draw(seed: int) -> Row:
 
 def head(sheet: Sheet, seed: int) -> Row:
     """Who makes it, and how its manual numbers registers."""
-    made: Row = {"format": 1, "prefix": f"DR{seed}", "vendor": sheet.text("Drawn"), "family": sheet.text(f"Drawn {seed}"),
-                 "manual": {"language": sheet.language, "title": sheet.text("Manual"), "publisher": sheet.text("Drawn")},
-                 "id_forms": ["A9.99"]}  # fmt: skip
+    made: Row = {"format": 1, "prefix": f"DR{seed}", "id_forms": ["A9.99"]}
+    made |= {"vendor": sheet.text("Drawn"), "family": sheet.text(f"Drawn {seed}")}
+    made["manual"] = {"language": sheet.language, "title": sheet.text("Manual"), "publisher": sheet.text("Drawn")}
     if sheet.maybe(0.2):
         made["manual"]["edition"] = "2026"
     if sheet.numbers:
@@ -532,7 +538,7 @@ def written(rows: Row) -> str:
 class _Plain(yaml.SafeDumper):
     """Every row is written out."""
 
-    def ignore_aliases(self, data: object) -> bool:
+    def ignore_aliases(self, _: object) -> bool:
         """Maps have none."""
         return True
 

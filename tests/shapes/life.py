@@ -95,36 +95,52 @@ def lie(name: str) -> Judged:
 
 
 def _another(rows: drawn.Row, chance: Random) -> tuple[drawn.Row, str]:
-    """One fact is another: a word of a command, a bit of the status, a scale, the present fault."""
-    operation = rows["operation"]
-    kind = chance.choice(("command", "status", "scale", "fault"))
-    if kind == "command":
-        one = chance.choice([each for each in operation["commands"] if "value" in each] or [operation["commands"][0]])
-        register = next(row for row in rows["sections"][0]["registers"] if row["address"] == one["register"])
-        values = register.get("values", [])
-        if values:
-            listed = next(each for each in values if each["value"] == one["value"])
-            for each in (*operation["commands"], *(s for c in operation["commands"] for s in c.get("first", ()))):
-                if each["register"] == one["register"] and each.get("value") == listed["value"]:
-                    each["value"] = 77
-            listed["value"] = 77
-            return rows, f"{one['does']} is 77"
-    if kind == "fault":
-        at = rows["faults"]["present"]
-        for row in rows["sections"][1]["registers"]:
-            if row["address"] == at:
-                row["address"] = drawn.moved(at, 5)
-        rows["faults"] |= {"present": drawn.moved(at, 5), "registers": [drawn.moved(at, 5)]}
-        return rows, f"the present fault is at {drawn.moved(at, 5)}"
-    if kind == "scale":
-        for row in rows["sections"][0]["registers"]:
-            if row["address"] == operation["reference"]["register"] and "scale" in row:
-                row["scale"]["factor"] *= 10
-                return rows, "the reference is ten times as large"
-    still = operation["standstill"]["all"][1]["register"]
-    for row in rows["sections"][1]["registers"]:
-        if row["address"] == still:
-            row["scale"]["factor"] *= 10
+    """One fact is another: the word of a command, the present fault, a scale."""
+    return chance.choice((_command, _fault, _reference, _frequency))(rows)
+
+
+def _rows(rows: drawn.Row, address: object) -> list[drawn.Row]:
+    return [row for part in rows["sections"] for row in part["registers"] if row["address"] == address]
+
+
+def _command(rows: drawn.Row) -> tuple[drawn.Row, str]:
+    """A run is another value, where values are listed."""
+    every = rows["operation"]["commands"]
+    one = next(each for each in every if each["does"] == "run_forward")
+    listed = [each for row in _rows(rows, one["register"]) for each in row.get("values", ())
+              if each["value"] == one.get("value")]  # fmt: skip
+    if not listed:
+        return _frequency(rows)
+    for each in every:
+        if each["register"] == one["register"] and each.get("value") == listed[0]["value"]:
+            each["value"] = 77
+    listed[0]["value"] = 77
+    return rows, "a run is 77"
+
+
+def _fault(rows: drawn.Row) -> tuple[drawn.Row, str]:
+    """The present fault is elsewhere."""
+    at = rows["faults"]["present"]
+    there = drawn.moved(at, 5)
+    for row in _rows(rows, at):
+        row["address"] = there
+    rows["faults"] |= {"present": there, "registers": [there]}
+    return rows, f"the present fault is at {there}"
+
+
+def _reference(rows: drawn.Row) -> tuple[drawn.Row, str]:
+    """The reference is ten times as large, where it has a scale."""
+    (row,) = _rows(rows, rows["operation"]["reference"]["register"])
+    if "scale" not in row:
+        return _frequency(rows)
+    row["scale"]["factor"] *= 10
+    return rows, "the reference is ten times as large"
+
+
+def _frequency(rows: drawn.Row) -> tuple[drawn.Row, str]:
+    """The output frequency is ten times as large."""
+    (row,) = _rows(rows, rows["operation"]["standstill"]["all"][1]["register"])
+    row["scale"]["factor"] *= 10
     return rows, "the output frequency is ten times as large"
 
 
@@ -133,8 +149,8 @@ def report(found: Sequence[Judged]) -> int:
     bad, count = summary(found), Counter[str]()
     for each in found:
         count.update({key: int(number) for key, number in each.figures.items()})
-    every = {f"{kind.__name__}.{each.name}" for kind in vars(model).values()
-             if is_dataclass(kind) and kind.__module__ == model.__name__ for each in fields(kind)}  # fmt: skip
+    kinds = [kind for kind in vars(model).values() if isinstance(kind, type) and kind.__module__ == model.__name__]
+    every = {f"{kind.__name__}.{each.name}" for kind in kinds if is_dataclass(kind) for each in fields(kind)}
     rare = {key: count[key] for key in sorted(every) if count[key] < EACH}
     print(f"keys: {len(every)}, fewer than {EACH} times: {rare}")
     return bad
