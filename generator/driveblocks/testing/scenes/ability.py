@@ -4,6 +4,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from driveblocks.maps.model import Drive
+from driveblocks.maps.rivals import first_reads
 from driveblocks.meaning.measure import measures
 from driveblocks.meaning.polls import meaning_words, polls
 from driveblocks.meaning.reference import reference
@@ -69,6 +70,11 @@ class Ability:
         """Whether what gives the reference its meaning is in the reads that prove standstill."""
         proof = [range(each.address, each.address + each.words) for each in polls(self.drive) if each.fast]
         return all(any(word in each for each in proof) for word in meaning_words(self.drive))
+
+    @cached_property
+    def known_by_refusal(self) -> bool:
+        """Whether a read that a drive of another make answers is sent before the first stop."""
+        return any(each.shows == "refusal" for each in first_reads(self.drive))
 
     @cached_property
     def turns(self) -> int:
