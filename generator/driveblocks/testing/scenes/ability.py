@@ -34,6 +34,10 @@ class Ability:
         """The command that every family has."""
         return words(self.drive).named["run_forward"]
 
+    def path_ms(self, does: str) -> int:
+        """How long the writes before the last one of a command may take, each with the reads that it waits for."""
+        return sum(300 + write.stays_ms for write in words(self.drive).named[does].writes[:-1])
+
     def shows(self, what: str) -> bool:
         """Whether its status shows something."""
         return bool(status(self.drive).shows(what))

@@ -21,6 +21,8 @@ POWER = Step("power-up", until="Motor.Ready", ms=2000, shows={"Reason": "READY"}
 PINS: dict[str, str] = {does: does.title().replace("_", "") for does in MOTIONS}
 RUNNING: Shows = {"Running": True, "Reason": "RUNS", "StopConfirmed": False, "Error": False, "CommOk": True}
 STANDS: Shows = {"StopConfirmed": True, "Running": False, "Seen.Driven": False, "OutputFrequencyHz": 0.0}
+STARTED = "Motor.Running AND (Seen.Starts > 0)"
+"""It runs, and not only shows so, as some drives do before the last write of a path."""
 NOTHING_STARTED: Shows = {"Seen.Starts": 0, "Seen.Runs": 0, "Seen.Driven": False}
 
 
@@ -115,9 +117,10 @@ def _motion(can: Ability, does: str) -> Iterator[Step]:
     })  # fmt: skip
     yield Step("the start is sent", {}, f"{why('STARTING')} OR {pace}", 200, {"StopConfirmed": False})
     sent = words(can.drive).named[does].last.register
-    own = sent != reference(can.drive).register
-    yield Step("it ramps up", {}, f"Motor.Running AND ({pace})", 1000, {
-        "Seen.Order": can.order(does), "Slots[0].Once": own, "Slots[0].Begins": own,
+    own, path = sent != reference(can.drive).register, can.path_ms(does)
+    asked: Shows = {"Slots[0].Once": own, "Slots[0].Begins": own}  # after a long path, the reference is due again
+    yield Step("it ramps up", {}, f"{STARTED} AND ({pace})", 1000 + path, {
+        "Seen.Order": can.order(does), **(asked if path < 1000 else {}),
     })  # fmt: skip
     until = f"ABS(Seen.Milli) >= {round(1000 * hertz) - 200}" if jog else "Motor.AtSpeed"
     shows: Shows = {
@@ -689,7 +692,8 @@ def _keypad_stop() -> Iterator[Step]:
 
 def _not_ready() -> Iterator[Step]:
     yield Step("it is not ready", {"Fate.NotReady": True}, why("NOT_READY"), 2000, {"Ready": False})
-    yield Step("an edge starts nothing", {"RunForward": True}, ms=500, shows=NOTHING_STARTED | {"Reason": "NOT_READY"})
+    barred = f"{why('NOT_READY')} OR {why('NOT_STOPPED')}"  # the stop of before may still be proved
+    yield Step("an edge starts nothing", {"RunForward": True}, ms=500, shows=NOTHING_STARTED | {barred: True})
     yield Step("ready again", {"Fate.NotReady": False, "RunForward": False}, "Motor.Ready", 2000)
     yield run()
 
