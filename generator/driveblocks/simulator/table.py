@@ -118,6 +118,8 @@ class Table:
     present: int | None
     present_shift: int
     """How far up its word the code of the present fault is, in bits."""
+    present_mask: int
+    """The bits of that word which hold it; the others may show something else."""
     warned: int | None
     """The register with the code of a warning."""
     warning: tuple[int, int]
@@ -169,6 +171,7 @@ def table(drive: Drive, habits: Habits, *, ascii_mode: bool = False) -> Table:
         storage=_storage(drive, allowed.writable),
         present=drive.faults.present,
         present_shift=drive.faults.present_bits.first if drive.faults.present_bits else 0,
+        present_mask=bits_of([drive.faults.present_bits]) if drive.faults.present_bits else WORD,
         warned=next(iter(drive.warned), None),
         warning=_warning(drive),
         fault_bits=(bits.first, bits.last) if bits else None,

@@ -11,7 +11,7 @@ from driveblocks.maps.form import SPACES, Span, address_name, address_text, spac
 from driveblocks.maps.model import Drive, kept
 from driveblocks.maps.plan import busy, merged
 from driveblocks.maps.rivals import own_address
-from driveblocks.meaning.pattern import Pattern
+from driveblocks.meaning.pattern import WORD, Pattern
 from driveblocks.meaning.status import registers, status
 from driveblocks.meaning.words import MOTIONS
 from driveblocks.render.environment import strict
@@ -266,11 +266,13 @@ def _gauge(gauge: Gauge) -> str:
 def _faults(made: Table, numbers: tuple[int, ...]) -> Iterator[tuple[int, str]]:
     if made.present is not None:
         times = f" * {2**made.present_shift}" if made.present_shift else ""
-        yield made.present, f"Value := UINT_TO_WORD(Motor.FaultCode{times});"
+        code = f"UINT_TO_WORD(Motor.FaultCode{times})"
+        others = f"(Value AND {word(WORD & ~made.present_mask)}) OR " if made.present_mask != WORD else ""
+        yield made.present, f"Value := {others}{code};"
     if made.warned is not None:
-        mask, code = made.warning
+        mask, number = made.warning
         yield made.warned, f"Value := Value AND {word(~mask)};"
-        yield made.warned, f"IF Fate.Warns THEN Value := Value OR {word(code)}; END_IF;"
+        yield made.warned, f"IF Fate.Warns THEN Value := Value OR {word(number)}; END_IF;"
     if made.fault_bits:
         for code in numbers:
             place, bit = divmod(code - 1, 16)
