@@ -76,6 +76,12 @@ class Ability:
         return all(any(word in each for each in proof) for word in meaning_words(self.drive))
 
     @cached_property
+    def runs_by_speed(self) -> bool:
+        """Whether a measure says that it runs, so that a motor without current runs as long as it turns."""
+        measured = {one.register for one in measures(self.drive)}
+        return any(each.register in measured for each in status(self.drive).shows("running"))
+
+    @cached_property
     def known_by_refusal(self) -> bool:
         """Whether a read that a drive of another make answers is sent before the first stop."""
         return any(each.shows == "refusal" for each in first_reads(self.drive))

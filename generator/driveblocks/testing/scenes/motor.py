@@ -397,9 +397,9 @@ def faults(can: Ability) -> Iterator[Scene]:
 
 
 def _tripped(can: Ability) -> Shows:
-    return {
-        "Fault": True, "FaultCode": can.code, "Reason": "FAULT", "Ready": False, "Running": False, "Error": False,
-    }  # fmt: skip
+    """What is shown in a trip; a drive whose speed says that it runs says so while the motor coasts."""
+    still: Shows = {} if can.runs_by_speed else {"Running": False}
+    return still | {"Fault": True, "FaultCode": can.code, "Reason": "FAULT", "Ready": False, "Error": False}
 
 
 def _code_known(can: Ability) -> str:
@@ -407,6 +407,8 @@ def _code_known(can: Ability) -> str:
 
 
 def _trip(can: Ability) -> Iterator[Step]:
+    if can.measures("dc_bus_voltage"):
+        yield Step("what is kept at a fault was read", {}, f"Motor.Diagnosis.{MEASURED['dc_bus_voltage'].valid}", 2000)
     trips: Shows = {"Fate.Trips": can.codes[1], "Fate.Cause": True}
     yield Step("it trips", trips, _code_known(can), 1500, _tripped(can) | {"Seen.Starts": 1})
     yield Step(
