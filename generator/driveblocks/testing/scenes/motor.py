@@ -296,12 +296,13 @@ def _released() -> Iterator[Step]:
 
 def _stronger(can: Ability) -> Iterator[Step]:
     runs_on: Shows = {"RunForward": False, "Fate.RunsOn": True, "StopWithinMs": 20000}
+    strongest = can.kind("coast_stop" if can.can("coast_stop") else "quick_stop")
     yield Step("a ramp, and it runs on", runs_on, TOLD, 300, {"Seen.StopKind": 1})
     yield Step("a quick stop", {"QuickStop": True}, ms=150, shows={"Seen.StopKind": can.kind("quick_stop")})
-    yield Step("a coast stop", {"CoastStop": True}, ms=150, shows={"Seen.StopKind": can.kind("coast_stop")})
+    yield Step("a coast stop", {"CoastStop": True}, ms=150, shows={"Seen.StopKind": strongest})
     pins: Shows = {"CoastStop": False, "QuickStop": False, ".Mark": "Seen.Stops"}
     yield Step("its repetitions are as strong", pins, "Seen.Stops > Mark", 1000, {
-        "Seen.StopKind": can.kind("coast_stop"), "Slots[0].StopAgain": True,
+        "Seen.StopKind": strongest, "Slots[0].StopAgain": True,
     })  # fmt: skip
     yield Step("at standstill", {"Fate.RunsOn": False}, "Motor.StopConfirmed", 3000, STANDS)
 
