@@ -35,6 +35,8 @@ class Fact:
 
     wanted: bool
     any: tuple[tuple[Pattern, ...], ...]
+    pin: str = ""
+    """The pin that shows it; empty: none does."""
 
     def shown(self, words: dict[int, int]) -> bool:
         """Whether the words show it."""
@@ -87,6 +89,21 @@ def face(drive: Drive, measured: frozenset[int], situation: Situation, state: st
     return shown
 
 
+def misshown(drive: Drive, measured: frozenset[int]) -> Iterator[str]:
+    """Pins that no words of the status show as they should be: scenes do not hold for such a map. In words."""
+    found: dict[tuple[str, bool], Situation] = {}
+    for situation in situations():
+        words_ = face(drive, measured, situation, None)
+        for fact in _facts(drive, measured, situation, None):
+            if fact.pin and fact.shown(words_) != fact.wanted:
+                found.setdefault((fact.pin, fact.wanted), situation)
+    states = " or ".join(each.name for each in awaited(drive))
+    for (pin, wanted), situation in found.items():
+        told = [field.name.replace("_", " ") for field in fields(situation) if getattr(situation, field.name)]
+        none = f", in none of the states {states}" if states and not situation.running and not situation.fault else ""
+        yield f"no words of its status show `{pin}` {str(wanted).upper()} of a drive that is {' and '.join(told)}{none}"
+
+
 def _waiting(drive: Drive, words: Words, facts: tuple[Fact, ...]) -> Words:
     """The words of a drive that goes through states and is in none: the bit that says so, unless it says more.
 
@@ -113,7 +130,7 @@ def _facts(drive: Drive, measured: frozenset[int], situation: Situation, state: 
     stands = tuple(each for each in shows.standstill.patterns if each.register not in measured)
 
     def fact(name: str, *, wanted: bool) -> Fact:
-        return Fact(wanted, tuple((each,) for each in shows.shows(name)))
+        return Fact(wanted, tuple((each,) for each in shows.shows(name)), name)
 
     named = {each.name: Fact(each.name == state, ((each.pattern,),)) for each in awaited(drive)}
     now = [named.pop(state)] if state in named else []
