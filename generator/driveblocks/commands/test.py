@@ -93,6 +93,7 @@ def run(  # noqa: PLR0913, PLR0917 - one parameter per option of the command lin
         _draw(done, picture)
     _print(programs, candidates, chosen)
     _unproved(read)
+    _premises(read)
     _cover(measured)
     _say(done, len(read), junit)
     sys.exit(0 if done.passed else 1)
@@ -159,6 +160,17 @@ def _unproved(sources: "list[Source]") -> None:
     for source in sources:
         if not source.drive.frames:
             click.echo(f"{source.drive.prefix}: {UNPROVED}")
+
+
+def _premises(sources: "list[Source]") -> None:
+    """Name what scenes suppose of a drive and a map says otherwise: they fail for that reason."""
+    from driveblocks.testing.scenes.drive import premises
+
+    for source in sources:
+        for told in premises(source.drive):
+            click.echo(
+                f"{source.drive.prefix}: scenes do not hold: {told}; correct the conditions of `status` or `states`"
+            )
 
 
 def _draw(run: "Run", folder: Path) -> None:

@@ -7,7 +7,8 @@ from itertools import product
 
 from driveblocks.maps.model import Drive
 from driveblocks.meaning.pattern import WORD, Pattern
-from driveblocks.meaning.status import registers, status
+from driveblocks.meaning.status import State, registers, status
+from driveblocks.meaning.words import words
 
 
 @dataclass(frozen=True, order=True)
@@ -34,6 +35,8 @@ class Fact:
 
     wanted: bool
     any: tuple[tuple[Pattern, ...], ...]
+    pin: str = ""
+    """The pin that shows it; empty: none does."""
 
     def shown(self, words: dict[int, int]) -> bool:
         """Whether the words show it."""
@@ -56,6 +59,12 @@ def situations() -> Iterator[Situation]:
                 yield Situation(running=True, reverse=reverse, at_speed=at_speed, zero_speed=zero, warning=warning)
 
 
+def awaited(drive: Drive) -> tuple[State, ...]:
+    """The states that a write waits for; the others of a map's chart follow from what else is shown."""
+    names = {write.until for command in words(drive).commands for write in command.writes}
+    return tuple(each for each in status(drive).states if each.name in names)
+
+
 def named_bits(drive: Drive, measured: frozenset[int]) -> Words:
     """The bits of status words that conditions name."""
     facts = _facts(drive, measured, Situation(), None)
@@ -75,9 +84,24 @@ def face(drive: Drive, measured: frozenset[int], situation: Situation, state: st
     registers = {each.register for fact in facts for all_ in fact.any for each in all_}
     candidates = [words for chosen in product(*options) if (words := _together(chosen, registers)) is not None]
     shown = max(candidates, key=lambda words: ([fact.shown(words) == fact.wanted for fact in facts], _least(words)))
-    if state is None and status(drive).states and not situation.fault and not situation.running:
+    if state is None and awaited(drive) and not situation.fault and not situation.running:
         return _waiting(drive, shown, facts)
     return shown
+
+
+def misshown(drive: Drive, measured: frozenset[int]) -> Iterator[str]:
+    """Pins that no words of the status show as they should be: scenes do not hold for such a map. In words."""
+    found: dict[tuple[str, bool], Situation] = {}
+    for situation in situations():
+        words_ = face(drive, measured, situation, None)
+        for fact in _facts(drive, measured, situation, None):
+            if fact.pin and fact.shown(words_) != fact.wanted:
+                found.setdefault((fact.pin, fact.wanted), situation)
+    states = " or ".join(each.name for each in awaited(drive))
+    for (pin, wanted), situation in found.items():
+        told = [field.name.replace("_", " ") for field in fields(situation) if getattr(situation, field.name)]
+        none = f", in none of the states {states}" if states and not situation.running and not situation.fault else ""
+        yield f"no words of its status show `{pin}` {str(wanted).upper()} of a drive that is {' and '.join(told)}{none}"
 
 
 def _waiting(drive: Drive, words: Words, facts: tuple[Fact, ...]) -> Words:
@@ -85,9 +109,9 @@ def _waiting(drive: Drive, words: Words, facts: tuple[Fact, ...]) -> Words:
 
     A map may have that as a state, too, in which a drive is after power-up.
     """
-    states = [Fact(False, ((each.pattern,),)) for each in status(drive).states]
+    states = [Fact(False, ((each.pattern,),)) for each in awaited(drive)]
     told = [fact for fact in facts if fact not in states]
-    for register in registers(each.pattern for each in status(drive).states):
+    for register in registers(each.pattern for each in awaited(drive)):
         row = drive.register_at(register)
         for bit in (each.bit.first for each in (row.bits if row else ()) if _DISABLED.match(each.name or "")):
             made = {**words, register: words.get(register, 0) | 1 << bit}
@@ -106,22 +130,23 @@ def _facts(drive: Drive, measured: frozenset[int], situation: Situation, state: 
     stands = tuple(each for each in shows.standstill.patterns if each.register not in measured)
 
     def fact(name: str, *, wanted: bool) -> Fact:
-        return Fact(wanted, tuple((each,) for each in shows.shows(name)))
+        return Fact(wanted, tuple((each,) for each in shows.shows(name)), name)
 
-    named = {each.name: Fact(each.name == state, ((each.pattern,),)) for each in shows.states}
+    named = {each.name: Fact(each.name == state, ((each.pattern,),)) for each in awaited(drive)}
     now = [named.pop(state)] if state in named else []
     facts = (
         fact("fault", wanted=situation.fault),
         *now,
         fact("running", wanted=situation.running),
         fact("reverse", wanted=situation.reverse),
-        *named.values(),
+        *([] if situation.running else named.values()),
         fact("zero_speed", wanted=situation.zero_speed),
         Fact(not situation.running, (stands,) if stands else ()),
         fact("at_speed", wanted=situation.at_speed),
         fact("ready", wanted=situation.ready),
         fact("warning", wanted=situation.warning),
         fact("limit", wanted=False),
+        *(named.values() if situation.running else []),
     )
     return tuple(each for each in facts if each.any)
 

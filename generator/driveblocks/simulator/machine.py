@@ -107,7 +107,8 @@ class Machine:
         if gauge:
             return self._measure(gauge)
         if address == self.table.present:
-            return self._code << self.table.present_shift
+            others = self._face().get(address, 0) & ~self.table.present_mask
+            return others | self._code << self.table.present_shift
         copy = self.table.copies.get(address)
         if copy:
             return self._at_fault.get(address, 0) if copy.at_fault else self._copied(copy)

@@ -20,7 +20,7 @@ from driveblocks.meaning.status import registers, status
 from driveblocks.meaning.words import CommandWord, words
 from driveblocks.modbus.layout import Dialect
 from driveblocks.simulator.copies import Copy, copies, zeros
-from driveblocks.simulator.face import Situation, face, named_bits, situations
+from driveblocks.simulator.face import Situation, awaited, face, named_bits, situations
 from driveblocks.simulator.habits import Habits
 from driveblocks.simulator.move import Move, moves
 from driveblocks.simulator.plate import plate
@@ -118,6 +118,8 @@ class Table:
     present: int | None
     present_shift: int
     """How far up its word the code of the present fault is, in bits."""
+    present_mask: int
+    """The bits of that word which hold it; the others may show something else."""
     warned: int | None
     """The register with the code of a warning."""
     warning: tuple[int, int]
@@ -139,7 +141,7 @@ def table(drive: Drive, habits: Habits, *, ascii_mode: bool = False) -> Table:
     measured = frozenset(gauge.register for gauge in gauges)
     longest = most(drive, "ascii" if ascii_mode else "rtu")
     broadcast, bits = serial(drive).broadcast, drive.faults.bits
-    states = tuple(state.name for state in status(drive).states)
+    states = tuple(state.name for state in awaited(drive))
     named = named_bits(drive, measured)
     codes_at = {drive.faults.present, *drive.warned, *(range(bits.first, bits.last + 1) if bits else ())} - {None}
     known = {*measured, *named, *codes_at, *plate(drive, habits), dialect(drive).address}
@@ -169,6 +171,7 @@ def table(drive: Drive, habits: Habits, *, ascii_mode: bool = False) -> Table:
         storage=_storage(drive, allowed.writable),
         present=drive.faults.present,
         present_shift=drive.faults.present_bits.first if drive.faults.present_bits else 0,
+        present_mask=bits_of([drive.faults.present_bits]) if drive.faults.present_bits else WORD,
         warned=next(iter(drive.warned), None),
         warning=_warning(drive),
         fault_bits=(bits.first, bits.last) if bits else None,
@@ -193,7 +196,7 @@ def _warning(drive: Drive) -> tuple[int, int]:
 
 @lru_cache(8)
 def _faces(drive: Drive, measured: frozenset[int]) -> dict[tuple[Situation, str | None], dict[int, int]]:
-    names = [state.name for state in status(drive).states]
+    names = [state.name for state in awaited(drive)]
     standing = (each for each in situations() if not each.fault and not each.running)
     keys = [(situation, None) for situation in situations()]
     keys += [(situation, name) for situation in standing for name in names]  # type: ignore[misc]  # str is str | None

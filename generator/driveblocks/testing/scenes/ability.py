@@ -4,6 +4,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from driveblocks.maps.model import Drive
+from driveblocks.maps.rivals import first_reads
 from driveblocks.meaning.measure import measures
 from driveblocks.meaning.polls import meaning_words, polls
 from driveblocks.meaning.reference import reference
@@ -33,6 +34,10 @@ class Ability:
         """The command that every family has."""
         return words(self.drive).named["run_forward"]
 
+    def path_ms(self, does: str) -> int:
+        """How long the writes before the last one of a command may take, each with the reads that it waits for."""
+        return sum(300 + write.stays_ms for write in words(self.drive).named[does].writes[:-1])
+
     def shows(self, what: str) -> bool:
         """Whether its status shows something."""
         return bool(status(self.drive).shows(what))
@@ -40,12 +45,6 @@ class Ability:
     def measures(self, what: str) -> bool:
         """Whether it measures something."""
         return any(one.name == what for one in measures(self.drive))
-
-    def reads_at_once(self, what: str) -> bool:
-        """Whether a measure is in the reads of each round."""
-        registers = [one.register for one in measures(self.drive) if one.name == what]
-        return any(each.fast and register in range(each.address, each.address + each.words)
-                   for each in polls(self.drive) for register in registers)  # fmt: skip
 
     def kind(self, wanted: str) -> int:
         """Number of the stop that is sent where one is wanted: the drive's own, else its stop."""
@@ -75,6 +74,17 @@ class Ability:
         """Whether what gives the reference its meaning is in the reads that prove standstill."""
         proof = [range(each.address, each.address + each.words) for each in polls(self.drive) if each.fast]
         return all(any(word in each for each in proof) for word in meaning_words(self.drive))
+
+    @cached_property
+    def runs_by_speed(self) -> bool:
+        """Whether a measure says that it runs, so that a motor without current runs as long as it turns."""
+        measured = {one.register for one in measures(self.drive)}
+        return any(each.register in measured for each in status(self.drive).shows("running"))
+
+    @cached_property
+    def known_by_refusal(self) -> bool:
+        """Whether a read that a drive of another make answers is sent before the first stop."""
+        return any(each.shows == "refusal" for each in first_reads(self.drive))
 
     @cached_property
     def turns(self) -> int:

@@ -54,7 +54,7 @@ def scripts(drive: Drive, stem: str) -> Iterator[Script]:
 def scenes(can: Ability) -> Iterator[Scene]:
     """All scenes of the line's own figures; the first needs a line that was never late."""
     yield scene("a scan that is later than promised is counted", POWER._replace(brisk=False), *_late_scans())
-    yield scene("what the line counts", POWER, run(), *_counts())
+    yield scene("what the line counts", POWER, run(), *_counts(can))
     yield scene("how late a stop can be", POWER, *_promises(can))
     yield scene("how busy the line is", POWER, *_load(can.drive))
 
@@ -110,16 +110,16 @@ def _lines(can: Ability, usual: Promise) -> Iterator[tuple[str, Shows, Promise]]
         yield "two drives", pins, replace(at, drives=2, offline=1000, turn_round=30, longest=60)
 
 
-def _counts() -> Iterator[Step]:
+def _counts(can: Ability) -> Iterator[Step]:
+    """What it counts from one moment on: a drive may be known by what it refuses, before its first stop."""
     same: Shows = {f"Bus.{name} = {name}": True for name in ("Requests", "Good", *COUNTERS)}
-    yield Step("from here", BEGIN | {
-        ".Marks[0]": "UINT_TO_WORD(Bus.Retries)", ".Marks[2]": "UINT_TO_WORD(Bus.Refusals)",
-    }, ms=20)  # fmt: skip
+    known: Shows = {".Marks[2]": "UINT_TO_WORD(Bus.Refusals)"}
+    yield Step("from here", BEGIN | known | {".Marks[0]": "UINT_TO_WORD(Bus.Retries)"}, ms=20)
     yield Step("each request reaches the drive", ms=1000, shows=RUNNING | same | {
         "Sent > 20": True, "Sent + 1 - Heard": (0, 2),
         "Lost <= 6": True, "Bus.Timeouts": 0, "Bus.Bad": 0,
         "Bus.Refusals - WORD_TO_UINT(Marks[2])": 0, "Bus.LateReplies": 0,
-        "(Bus.LastErrorID = 0) OR (Bus.Refusals > 0)": True,  # a first read may be one that is refused
+        "Bus.LastErrorID": 40 if can.known_by_refusal else 0,
     }, brisk=False)  # fmt: skip
     for words, what, counter, error in (
         ("its replies are lost", "Dumb", "Timeouts", 20),

@@ -11,11 +11,12 @@ from driveblocks.maps.form import SPACES, Span, address_name, address_text, spac
 from driveblocks.maps.model import Drive, kept
 from driveblocks.maps.plan import busy, merged
 from driveblocks.maps.rivals import own_address
-from driveblocks.meaning.pattern import Pattern
+from driveblocks.meaning.pattern import WORD, Pattern
 from driveblocks.meaning.status import registers, status
 from driveblocks.meaning.words import MOTIONS
 from driveblocks.render.environment import strict
 from driveblocks.simulator.copies import RPM_OF_ONE_PAIR
+from driveblocks.simulator.face import misshown
 from driveblocks.simulator.habits import Habits
 from driveblocks.simulator.move import EFFECTS, STATE, Move, Need
 from driveblocks.simulator.plate import chosen, own_maximum_word
@@ -45,6 +46,11 @@ def text(drive: Drive, faults: Iterable[int]) -> str:
 @kept
 def simulated(drive: Drive) -> Table:
     return table(drive, Habits(maximum_hz=MAXIMUM_HZ))
+
+
+def premises(drive: Drive) -> list[str]:
+    """What the map says against what all scenes suppose of a drive, in words."""
+    return list(misshown(drive, frozenset(each.register for each in simulated(drive).gauges)))
 
 
 def counts_per_hertz(drive: Drive) -> float:
@@ -266,7 +272,8 @@ def _gauge(gauge: Gauge) -> str:
 def _faults(made: Table, numbers: tuple[int, ...]) -> Iterator[tuple[int, str]]:
     if made.present is not None:
         times = f" * {2**made.present_shift}" if made.present_shift else ""
-        yield made.present, f"Value := UINT_TO_WORD(Motor.FaultCode{times});"
+        others = f"(Value AND {word(WORD & ~made.present_mask)}) OR " if made.present_mask != WORD else ""
+        yield made.present, f"Value := {others}UINT_TO_WORD(Motor.FaultCode{times});"
     if made.warned is not None:
         mask, code = made.warning
         yield made.warned, f"Value := Value AND {word(~mask)};"

@@ -77,16 +77,16 @@ def scripts(drive: Drive, stem: str) -> Iterator[Script]:
 
 def scenes(can: Ability) -> Iterator[Scene]:
     drive = can.drive
-    modes = serial(drive).modes
-    for mode in modes:
+    usual = "ascii" if serial(drive).ascii else "rtu"
+    for mode in serial(drive).modes:
         sets: Shows = {"Pins.Ascii": mode == "ascii", "Pins.ForeignMost": 20}
         yield scene(f"frames of another master, {mode}", Step("settings", sets, ms=20), START[1], *_frames(mode))
-    yield scene("some frames in ten seconds", START, *_now_and_then(modes[0]))
+    yield scene("some frames in ten seconds", START, *_now_and_then(usual))
     yield scene("another master goes away", START, *_goes_away())
     yield scene("replies that come twice", START, run(), *_twice())
-    yield scene("noise before a reply", START, run(), *_noise(modes[0]))
+    yield scene("noise before a reply", START, run(), *_noise(usual))
     if simulated(drive).dialect.function == 6:
-        yield scene("an echo of another write", START, *_other_write(drive, modes[0]))
+        yield scene("an echo of another write", START, *_other_write(drive, usual))
     if simulated(drive).dialect.two_byte_count:
         yield scene("replies with a byte count of two bytes", START, run(), *_wide())
     yield scene("a late reply after a stop", START, run(), *_late_stop())

@@ -12,7 +12,7 @@ from driveblocks.meaning.serial import serial
 from driveblocks.reference.command import Commands
 from driveblocks.testing.scenes.ability import Ability
 from driveblocks.testing.scenes.drive import mark
-from driveblocks.testing.scenes.motor import NOTHING_STARTED, RUNNING, STANDS
+from driveblocks.testing.scenes.motor import NOTHING_STARTED, RUNNING, STANDS, STARTED
 from driveblocks.testing.scenes.scene import More, Scene, Shows, Step, Value, scene, script
 from driveblocks.testing.script import Script
 from structured_text.language.writing import word
@@ -133,7 +133,7 @@ def _not_blank(drive: Drive) -> Iterator[Step]:
     } | _nothing_waits()))  # fmt: skip
     run = _command(drive, "run_forward")
     speed = reference(drive).register
-    yield Step("it runs as ever", {"RunForward": True, "Pins.Settings.RefreshMs": 65535}, "Motor.Running", 3000, {
+    yield Step("it runs as ever", {"RunForward": True, "Pins.Settings.RefreshMs": 65535}, STARTED, 3000, {
         "Seen.Starts": 1, "Seen.LastRegister = " + word(mark(run.register)): True,
     })  # fmt: skip
     yield Step("what the line knows then", ms=20, shows=_slot(known(drive) | {
