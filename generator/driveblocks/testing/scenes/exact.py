@@ -173,7 +173,7 @@ def _stale() -> Iterator[Step]:
 
 
 def _follow(drive: Drive) -> Iterator[Step]:
-    """Each state on the way to a run is proved first. The time is at least that of two reads in turn, and of a round."""
+    """Each state on the way to a run is proved first. The time is at least that of two reads in turn, and a round."""
     states = len(words(drive).named["run_forward"].writes) - 1
     most = 1080 + 80 * states + 40 * len(polls(drive))
     ignored: Shows = {

@@ -135,9 +135,8 @@ def _motion(can: Ability, does: str) -> Iterator[Step]:
         shows |= {"OutputFrequencyHz": hertz, "ABS(ABS(Seen.StartMilli) - 30000) <= 200": True}
     if can.measures("output_current"):
         shows["OutputCurrentA"] = 5.0
-    shows |= {
-        name if "Motor." in name else f"Motor.Diagnosis.{name}": value for name, value in _measured(can, jog=jog).items()
-    }
+    for name, value in _measured(can, jog=jog).items():
+        shows[name if "Motor." in name else f"Motor.Diagnosis.{name}"] = value
     stays: Shows = {"Reason": "RUNS"} if jog else shows
     yield Step("and stays there", ms=max(1500, 400 * can.turns), shows=stays | {"Seen.Starts": 1})
     yield Step("the pin falls", {pin: False}, TOLD, 300, {"StopConfirmed": False})
