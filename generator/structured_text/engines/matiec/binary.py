@@ -9,7 +9,6 @@ from pathlib import Path
 from structured_text.engines.engine import EngineError, Message
 from structured_text.engines.matiec.counters import Counters
 from structured_text.engines.matiec.declarations import Declarations
-from structured_text.engines.matiec.header import ConfigurationC
 from structured_text.engines.matiec.plan import Plan
 
 _TRAPS = {
@@ -53,10 +52,6 @@ class Binary:
         """Read the counters `dbk_hits` or `dbk_begun`."""
         return list((ctypes.c_uint64 * size).in_dll(self.handle, table))
 
-    def places(self, count: int) -> list[int | None]:
-        """Read the addresses of what a CONFIGURATION holds."""
-        return list((ctypes.c_void_p * max(count, 1)).in_dll(self.handle, "dbk_places"))
-
 
 @dataclass(frozen=True)
 class Built:
@@ -66,7 +61,6 @@ class Built:
     binary: Binary
     plan: Plan
     declared: Declarations
-    configuration: ConfigurationC | None
     warnings: tuple[Message, ...]
     places: Mapping[str, tuple[str, int]]
     counters: Counters | None
