@@ -1,7 +1,5 @@
 """Typed trees: names, types and calls of several files resolved together."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from operator import is_not
 

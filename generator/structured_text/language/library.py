@@ -1,7 +1,5 @@
 """Every name that several files declare together, and the constants that types are made of."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 from structured_text.language.report import Report

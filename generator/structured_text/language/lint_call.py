@@ -1,7 +1,5 @@
 """Rules about calls of functions and blocks."""
 
-from __future__ import annotations
-
 from structured_text.language.lint_scope import Scope
 from structured_text.language.loose import tell_loose
 from structured_text.language.ranges import whole

@@ -1,7 +1,5 @@
 """A decision is taken once: nothing that was decided in a call, and used, is assigned again in the same call."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator
 from enum import IntEnum
 

@@ -1,7 +1,5 @@
 """Rules about names, types and variables."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 from structured_text.language.lint_scope import Scope

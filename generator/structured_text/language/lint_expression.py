@@ -1,7 +1,5 @@
 """Rules about expressions: what compilers compute differently."""
 
-from __future__ import annotations
-
 from structured_text.language.lint_call import call
 from structured_text.language.lint_scope import Scope
 from structured_text.language.loose import tell_loose

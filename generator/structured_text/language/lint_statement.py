@@ -1,7 +1,5 @@
 """Rules about statements."""
 
-from __future__ import annotations
-
 from structured_text.language.lint_scope import Scope
 from structured_text.language.tree import (
     Case,

@@ -4,8 +4,6 @@ Not a proof: a variable has the range of all that is ever assigned to it in its 
 in-outs, what is passed by reference and what nobody assigns to may be anything of their type.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 from functools import cache
 

@@ -1,7 +1,5 @@
 """Type specifications -> types."""
 
-from __future__ import annotations
-
 from structured_text.language.library import Library, fold
 from structured_text.language.report import nearest
 from structured_text.language.standard import BLOCKS, default_string

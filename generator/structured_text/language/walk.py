@@ -1,7 +1,5 @@
 """Every node of a POU's statements, handed to whoever asked for its kind."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 from typing import Any
 

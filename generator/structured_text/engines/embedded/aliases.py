@@ -3,8 +3,6 @@
 matiec copies in-outs in and out, others pass references: only without aliases do both mean the same.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from itertools import combinations
 

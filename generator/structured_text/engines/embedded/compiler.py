@@ -1,7 +1,5 @@
 """From checked sources to Python functions and classes: one function per POU, one class per block and structure."""
 
-from __future__ import annotations
-
 import ast
 from collections.abc import Callable
 from typing import Any

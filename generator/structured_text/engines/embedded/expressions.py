@@ -1,7 +1,5 @@
 """Every kind of expression and the function that compiles it."""
 
-from __future__ import annotations
-
 from structured_text.engines.embedded import operands, operators
 from structured_text.engines.embedded.calls import call_term
 from structured_text.engines.embedded.scope import Terms

@@ -1,7 +1,5 @@
 """The globals of a build, whoever declares them: one object, which all instances see (IEC 61131-3 clause 2.7)."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from typing import Any
 

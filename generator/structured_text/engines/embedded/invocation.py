@@ -4,8 +4,6 @@ Inputs are copied into the instance. In-outs of arrays and structures are handed
 copied in and out: the same, and the same as on matiec, which copies all, as long as nothing is bound twice.
 """
 
-from __future__ import annotations
-
 import ast
 from dataclasses import dataclass
 

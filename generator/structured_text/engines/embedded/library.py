@@ -1,7 +1,5 @@
 """What a build gives: instances, function calls, configurations, and the lines that were run."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator, Mapping
 from itertools import repeat
 from types import FrameType

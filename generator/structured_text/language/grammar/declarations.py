@@ -1,7 +1,5 @@
 """Type specifications and variable declarations: tokens -> tree (annex B.1.3, B.1.4)."""
 
-from __future__ import annotations
-
 from structured_text.language.grammar.cursor import Cursor, SyntaxProblem
 from structured_text.language.grammar.expressions import expression
 from structured_text.language.grammar.initial_values import initial_value

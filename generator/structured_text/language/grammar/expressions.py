@@ -3,8 +3,6 @@
 Accepts what real sources hold beyond the second edition (`w.3`, `p^`, `AND(a, b)`), for the linter to name.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import NoReturn
 

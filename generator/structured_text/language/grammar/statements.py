@@ -1,7 +1,5 @@
 """Statements: tokens -> tree (annex B.3.2), with recovery, so that one mistake does not hide the next."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 from structured_text.language.grammar.cursor import Cursor, SyntaxProblem

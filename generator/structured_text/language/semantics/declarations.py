@@ -1,7 +1,5 @@
 """Declarations of POUs and configurations -> symbols, parameters and block types (clauses 2.4.3, 2.5, 2.7)."""
 
-from __future__ import annotations
-
 from structured_text.language.report import Report
 from structured_text.language.resolve import Resolver
 from structured_text.language.tree import (

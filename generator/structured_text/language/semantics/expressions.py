@@ -1,7 +1,5 @@
 """Every kind of expression and the function that finds its type (clause 3.3.1)."""
 
-from __future__ import annotations
-
 from structured_text.language.semantics import operands, operators
 from structured_text.language.semantics.calls import call_type
 from structured_text.language.semantics.scope import Inference

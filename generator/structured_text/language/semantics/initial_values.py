@@ -1,7 +1,5 @@
 """Initial values (clause 2.4.3.2): literals and enumerated values of the type declared."""
 
-from __future__ import annotations
-
 from structured_text.language.library import fold
 from structured_text.language.semantics.operands import block_variable
 from structured_text.language.semantics.scope import Scope, expect

@@ -1,7 +1,5 @@
 """The types of expressions (clause 3.3.1): operands of one type, nothing converted by itself."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from structured_text.language.library import fold

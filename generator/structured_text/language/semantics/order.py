@@ -1,7 +1,5 @@
 """Functions and blocks in an order in which callees come first."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 from structured_text.language.report import Report

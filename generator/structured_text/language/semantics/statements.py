@@ -1,7 +1,5 @@
 """Statements (clause 3.3.2) and initial values."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any
 

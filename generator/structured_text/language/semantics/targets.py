@@ -1,7 +1,5 @@
 """What can be written to, and what an expression is a part of."""
 
-from __future__ import annotations
-
 from structured_text.language.semantics.scope import Scope
 from structured_text.language.tree import (
     BitAccess,

@@ -1,7 +1,5 @@
 """Literals without prefix, and whether a value may be used where a type is wanted."""
 
-from __future__ import annotations
-
 import sys
 
 from structured_text.language.library import fold

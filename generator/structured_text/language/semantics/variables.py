@@ -1,7 +1,5 @@
 """The initial values of variables and declared types, and what the variables refer to (clauses 2.3.3, 2.4.3)."""
 
-from __future__ import annotations
-
 from structured_text.language.resolve import Resolver
 from structured_text.language.semantics.declarations import no_block_inside
 from structured_text.language.semantics.initial_values import initial_value
