@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 from operator import is_not
 
+from structured_text.language import tree
 from structured_text.language.collector import paused
 from structured_text.language.library import Library
 from structured_text.language.problems import CheckError, Problem
@@ -15,22 +16,10 @@ from structured_text.language.semantics.order import sort_callees
 from structured_text.language.semantics.scope import Scope
 from structured_text.language.semantics.statements import check_statements
 from structured_text.language.semantics.variables import check_globals, check_type, check_variables
-from structured_text.language.tree import (
-    Analysis,
-    Checked,
-    Configuration,
-    Function,
-    FunctionBlock,
-    Pou,
-    Program,
-    TypeDecl,
-    Unit,
-    Unsupported,
-)
 from structured_text.language.types import VOID
 
 
-def check(units: Sequence[Unit]) -> Checked:
+def check(units: Sequence[tree.Unit]) -> tree.Checked:
     """Resolve and type files as one text in the given order. Raises CheckError with everything that is wrong.
 
     Raises ValueError as `analyse` does.
@@ -41,7 +30,7 @@ def check(units: Sequence[Unit]) -> Checked:
     return checked
 
 
-def analyse(units: Sequence[Unit]) -> tuple[Checked, list[Problem]]:
+def analyse(units: Sequence[tree.Unit]) -> tuple[tree.Checked, list[Problem]]:
     """As `check`, but give what could be typed together with the problems, for those who go on nevertheless.
 
     The trees are completed in place, once: asked again for the same files, it gives what it gave. Raises ValueError for
@@ -52,13 +41,13 @@ def analyse(units: Sequence[Unit]) -> tuple[Checked, list[Problem]]:
         report = Report()
         with paused():
             checked = _checked(Library(list(units), report), report)
-        found = Analysis(checked, report.problems())
+        found = tree.Analysis(checked, report.problems())
         for unit in units:
             unit.analysis = found
     return found.checked, list(found.problems)
 
 
-def _analysed(units: Sequence[Unit]) -> Analysis | None:
+def _analysed(units: Sequence[tree.Unit]) -> tree.Analysis | None:
     """What was made of these very files, in this order, before. Raises ValueError as `analyse` does."""
     found = units[0].analysis if units else None
     known = found.checked.units if found is not None else units
@@ -69,11 +58,11 @@ def _analysed(units: Sequence[Unit]) -> Analysis | None:
     return found
 
 
-def _checked(library: Library, report: Report) -> Checked:
+def _checked(library: Library, report: Report) -> tree.Checked:
     """Check everything: first what is declared, then what is in it."""
-    checked, resolver = Checked(units=library.units), Resolver(library)
+    checked, resolver = tree.Checked(units=library.units), Resolver(library)
     _sort_elements(checked, resolver)
-    pous: list[Pou] = [*checked.functions.values(), *checked.blocks.values(), *checked.programs.values()]
+    pous: list[tree.Pou] = [*checked.functions.values(), *checked.blocks.values(), *checked.programs.values()]
     for pou in pous:
         report.unit = pou.unit
         declare_pou(resolver, pou)
@@ -88,50 +77,50 @@ def _checked(library: Library, report: Report) -> Checked:
     return checked
 
 
-def _sort_elements(checked: Checked, resolver: Resolver) -> None:
+def _sort_elements(checked: tree.Checked, resolver: Resolver) -> None:
     """Fill the tables; resolve the types; report what is unsupported."""
     for unit in checked.units:
         resolver.report.unit = unit
         for element in unit.elements:
-            if isinstance(element, Unsupported):
+            if isinstance(element, tree.Unsupported):
                 _unsupported(resolver.report, element)
-            elif isinstance(element, TypeDecl):
+            elif isinstance(element, tree.TypeDecl):
                 declare_type(resolver, element)
                 checked.types.setdefault(element.name.upper(), element.type)
-            elif isinstance(element, Function):
+            elif isinstance(element, tree.Function):
                 checked.functions.setdefault(element.name.upper(), element)
-            elif isinstance(element, FunctionBlock):
+            elif isinstance(element, tree.FunctionBlock):
                 checked.blocks.setdefault(element.name.upper(), element)
-            elif isinstance(element, Program):
+            elif isinstance(element, tree.Program):
                 checked.programs.setdefault(element.name.upper(), element)
-            elif isinstance(element, Configuration):
+            elif isinstance(element, tree.Configuration):
                 checked.configurations.setdefault(element.name.upper(), element)
 
 
-def _unsupported(report: Report, element: Unsupported) -> None:
+def _unsupported(report: Report, element: tree.Unsupported) -> None:
     """Report METHOD, NAMESPACE and the like."""
     text = f"{element.word} {element.name} is not in the Structured Text of the second edition: {_INSTEAD}"
     report.add(element.at, "unsupported", text)
 
 
-def _check_types(scope: Scope, checked: Checked) -> None:
+def _check_types(scope: Scope, checked: tree.Checked) -> None:
     for unit in checked.units:
         scope.report.unit = unit
         for element in unit.elements:
-            if isinstance(element, TypeDecl) and element.name.upper() in checked.types:
+            if isinstance(element, tree.TypeDecl) and element.name.upper() in checked.types:
                 check_type(scope, element)
 
 
-def _check_pou(scope: Scope, pou: Pou) -> set[str]:
+def _check_pou(scope: Scope, pou: tree.Pou) -> set[str]:
     """Check the variables and statements of one POU; the functions that it calls."""
     scope.report.unit = pou.unit
     check_variables(scope, pou)
     for extra in pou.extras:
         _unsupported(scope.report, extra)
-    if isinstance(pou, FunctionBlock) and pou.heritage:
+    if isinstance(pou, tree.FunctionBlock) and pou.heritage:
         scope.report.add(pou.name_at, "unsupported", f"{pou.heritage} is not in the second edition: {_INSTEAD}")
     check_statements(scope, pou.body)
-    if isinstance(pou, Function) and pou.name.upper() not in scope.written and pou.type is not VOID:
+    if isinstance(pou, tree.Function) and pou.name.upper() not in scope.written and pou.type is not VOID:
         text = f"expected an assignment to {pou.name} somewhere in FUNCTION {pou.name}: it gives the result"
         scope.report.add(pou.name_at, "no-result", text)
     return scope.called
