@@ -1,6 +1,6 @@
 """Typed trees: names, types and calls of several files resolved together."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from operator import is_not
 
 from structured_text.language import tree
@@ -9,14 +9,23 @@ from structured_text.language.library import Library
 from structured_text.language.problems import CheckError, Problem
 from structured_text.language.report import Report
 from structured_text.language.resolve import Resolver
+from structured_text.language.semantics import operands, operators
+from structured_text.language.semantics.calls import call_type
 from structured_text.language.semantics.configurations import check_configuration
 from structured_text.language.semantics.declarations import declare_pou, declare_type
-from structured_text.language.semantics.expressions import INFERENCE
-from structured_text.language.semantics.order import sort_callees
-from structured_text.language.semantics.scope import Scope
+from structured_text.language.semantics.scope import Inference, Scope
 from structured_text.language.semantics.statements import check_statements
 from structured_text.language.semantics.variables import check_globals, check_type, check_variables
-from structured_text.language.types import VOID
+from structured_text.language.tree import Array, Block, Checked, Function, FunctionBlock, Pou
+from structured_text.language.types import VOID, Type
+
+INFERENCE: Inference = {
+    tree.Literal: operands.literal, tree.Name: operands.name, tree.Qualified: operands.qualified,
+    tree.Member: operands.member, tree.Index: operands.index, tree.BitAccess: operands.bit_access,
+    tree.Dereference: operands.dereference, tree.Direct: operands.direct, tree.Unary: operators.unary,
+    tree.Binary: operators.binary, tree.Call: call_type, tree.Repeat: operands.misplaced,
+    tree.ArrayInitial: operands.misplaced, tree.StructInitial: operands.misplaced,
+}  # fmt: skip
 
 
 def check(units: Sequence[tree.Unit]) -> tree.Checked:
@@ -127,3 +136,58 @@ def _check_pou(scope: Scope, pou: tree.Pou) -> set[str]:
 
 
 _INSTEAD = "use a function block with an input that selects what to do"
+
+
+# Blocks in blocks in blocks: more levels are an accident.
+DEEPEST_BLOCKS = 40
+
+# The functions that each POU calls, in upper case, by the identity of the POU.
+Calls = Mapping[int, set[str]]
+
+
+def sort_callees(checked: Checked, calls: Calls, report: Report) -> None:
+    """Sort functions and blocks so that callees come first; report those that contain themselves."""
+    waiting: dict[str, set[str]] = {}
+    pous: dict[str, Function | FunctionBlock] = {**checked.functions, **checked.blocks}
+    for key, pou in pous.items():
+        waiting[key] = {each for each in _needs(pou, calls.get(id(pou), set())) if each in pous}
+    users: dict[str, list[str]] = {key: [] for key in pous}
+    for key, needed in waiting.items():
+        for each in needed:
+            users[each].append(key)
+    ready = [key for key, needed in waiting.items() if not needed]
+    level = dict.fromkeys(ready, 1)
+    for key in ready:
+        checked.callees_first.append(pous[key])
+        for user in users[key]:
+            waiting[user].discard(key)
+            level[user] = max(level.get(user, 1), level[key] + 1)
+            if not waiting[user]:
+                ready.append(user)
+    _tell_cycles(report, pous, set(pous) - set(ready), level)
+
+
+def _tell_cycles(
+    report: Report, pous: dict[str, Function | FunctionBlock], cyclic: set[str], level: dict[str, int]
+) -> None:
+    """Report POUs that call or contain themselves, and towers of blocks."""
+    for key, pou in pous.items():
+        report.unit = pou.unit
+        if key in cyclic:
+            text = f"{pou.name} calls or contains itself, directly or through another: ST has no recursion"
+            report.add(pou.name_at, "recursion", text)
+        elif level.get(key, 1) > DEEPEST_BLOCKS:
+            text = f"expected at most {DEEPEST_BLOCKS} levels of calls below {pou.name}"
+            report.add(pou.name_at, "recursion", text)
+
+
+def _needs(pou: Pou, called: set[str]) -> list[str]:
+    """The functions and blocks that a POU calls or contains, by upper-case name, each once."""
+    found = dict.fromkeys(sorted(called))
+    for variable in pou.symbols.values():
+        made: Type = variable.type
+        while isinstance(made, Array):
+            made = made.element
+        if isinstance(made, Block) and made.declaration is not None:
+            found[made.name.upper()] = None
+    return list(found)

@@ -9,13 +9,12 @@ from pathlib import Path
 
 from structured_text.engines.engine import EngineError, Message, Source
 from structured_text.engines.matiec import runtime
-from structured_text.engines.matiec.binary import Binary, Built
+from structured_text.engines.matiec.binary import Binary, Built, load_guard
 from structured_text.engines.matiec.c_lines import LineTable, counted, directives, take_lines
 from structured_text.engines.matiec.cache import Cache, cache_folder
 from structured_text.engines.matiec.ccompiler import CCompiler, Flags, Job
 from structured_text.engines.matiec.counters import Counters
 from structured_text.engines.matiec.declarations import Declarations, read_declarations
-from structured_text.engines.matiec.guard import load_guard
 from structured_text.engines.matiec.header import (
     Block,
     ConfigurationC,
