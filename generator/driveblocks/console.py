@@ -61,8 +61,8 @@ def give_up_output() -> None:
         os.dup2(files.opened(Path(os.devnull)).fileno(), sys.stdout.fileno())
 
 
-def terminal() -> "Console":
-    """Standard output as rich has it; `is_terminal` says whether it is one."""
+def terminal(name: str = "stdout") -> "Console":
+    """Standard output, or `stderr`, as rich has it; `is_terminal` says whether it is one."""
     from rich.console import Console
     from rich.text import Text
 
@@ -80,8 +80,42 @@ def terminal() -> "Console":
                 renderable.plain = visible(renderable.plain)
             return super().render(renderable, options)
 
-    beneath = sys.stdout.stream if isinstance(sys.stdout, Shown) else sys.stdout
+    stream = getattr(sys, name)
+    beneath = stream.stream if isinstance(stream, Shown) else stream
     return Visible(file=beneath, markup=False, emoji=False, highlight=False)
+
+
+class Bar:
+    """How far something is that takes its time: a line of a terminal, which goes away; elsewhere nothing."""
+
+    def __init__(self, screen: "Console", *, ticks: bool = True) -> None:
+        """`ticks`: its clock runs in a thread of its own, which must not be where processes are forked."""
+        from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
+
+        columns = (
+            BarColumn(20),
+            MofNCompleteColumn(),
+            TimeElapsedColumn(),
+            TextColumn("{task.description}", markup=False),
+        )
+        self._bar = Progress(
+            *columns, console=screen, auto_refresh=ticks, transient=True, redirect_stdout=False, redirect_stderr=False
+        )
+        self._task = self._bar.add_task("")
+        self._seen, self._runs = screen.is_terminal, False
+
+    def show(self, done: int, total: int, text: str) -> None:
+        """So much of it is done, and this is what it is at."""
+        self._bar.update(self._task, completed=done, total=total, description=text, refresh=self._runs)
+        if self._seen and not self._runs:
+            self._runs = True
+            self._bar.start()
+
+    def close(self) -> None:
+        """Take it away, so that something else can be printed; the next `show` brings it back."""
+        if self._runs:
+            self._bar.stop()
+            self._runs = False
 
 
 def write(*pieces: "RenderableType") -> None:

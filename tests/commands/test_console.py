@@ -6,14 +6,19 @@ import json
 import os
 import sys
 import unicodedata
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import Any, NoReturn
 
 import pytest
 from rich.text import Text
 
 from driveblocks import cli, console
+from driveblocks.output import units
+from driveblocks.prove import archive
 from driveblocks.show.layout import card, heading, table
+from driveblocks.testing import runner
+from driveblocks.testing.outcome import Run
 from structured_text.visible import file_name, visible
 
 HOSTILE = "\x1b[31mred\x1b]0;t\x07\r\x08\x7f\x9b5m\u202eback\u2066\u200b\u2028\ufeff\U000e0041"
@@ -160,3 +165,43 @@ def test_output_onto_a_full_disk(monkeypatch: pytest.MonkeyPatch, capsys: pytest
 @pytest.mark.parametrize("name", ["x" * 300, "nowhere/x.st", __file__ + "/x"], ids=["long", "missing", "in a file"])
 def test_names_of_what_is_not_there(printed: Printed, words: list[str], name: str) -> None:
     assert printed(*words, name).count("\n") <= 2
+
+
+def test_a_terminal_shows_how_far_it_is_until_something_else_is_printed(printed: Printed) -> None:
+    def work() -> None:
+        for ticks in (False, True):
+            bar = console.Bar(console.terminal("stderr"), ticks=ticks)
+            bar.show(3, 7, f"RED {ticks}\x1b[31m")
+            bar.close()
+            console.write("printed")
+            bar.show(4, 7, "going on")
+            bar.close()
+            bar.close()
+
+    text = printed(function=work)
+    seen = [f"RED {ticks}" in text and "3/7" in text and "4/7" in text for ticks in (False, True)]
+    assert seen == [Stream.terminal] * 2
+    assert text.count("\x1b[?25h") == text.count("\x1b[?25l") == (4 if Stream.terminal else 0), "the cursor is back"
+    assert "\x1b[31m" not in text
+    assert Stream.terminal or text == "printed\n" * 2
+
+
+def test_the_commands_that_take_long_say_on_a_terminal_how_far_they_are(
+    printed: Printed, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def proofs(*_: object, **told: Callable[[int, int, str], None]) -> Iterator[NoReturn]:
+        told["tell"](1, 2, "a block")
+        yield from ()
+
+    monkeypatch.setattr(archive, "run", proofs)
+    text = printed("prove", "jscc")
+    assert ("a block" in text and "1/2" in text) is Stream.terminal
+
+    def run(*given: Any) -> Run:
+        given[-1](3, 4, "a drive")
+        return Run([], 0.0)
+
+    monkeypatch.setattr(runner, "run", run)
+    monkeypatch.setattr(units, "units", lambda *_: [])
+    text = printed("test", "jscc")
+    assert ("making the programs" in text and "a drive" in text and "3/4" in text) is Stream.terminal

@@ -105,7 +105,7 @@ def test_a_planted_mistake_comes_with_its_call() -> None:
 
 def test_the_command_says_so_by_its_status(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(
-        archive, "run", lambda _: iter([(report.result(planted("Overdue OR Restart", "Restart")), False)])
+        archive, "run", lambda *_, **__: iter([(report.result(planted("Overdue OR Restart", "Restart")), False)])
     )
     xml = tmp_path / "proofs.xml"
     done = CliRunner().invoke(app, ["prove", "jscc", "--junit", str(xml), "--rules"])
@@ -114,7 +114,7 @@ def test_the_command_says_so_by_its_status(tmp_path: Path, monkeypatch: pytest.M
     assert "proved: such an edge closes it (A16)" in done.output
     root = etree.parse(xml).getroot()
     assert int(root.attrib["failures"]) > 0
-    monkeypatch.setattr(archive, "run", lambda _: iter([(report.result(planted("nothing", "")), True)]))
+    monkeypatch.setattr(archive, "run", lambda *_, **__: iter([(report.result(planted("nothing", "")), True)]))
     assert CliRunner().invoke(app, ["prove", "jscc", "--junit", str(xml)]).exit_code == 0  # the file is its own
 
 
@@ -130,7 +130,7 @@ def test_the_commands_on_the_pages_run_and_say_that_all_is_proved(
     monkeypatch.chdir(tmp_path)
     known = [report.result(each) for each in everything()]
     monkeypatch.setattr(
-        archive, "run", lambda sources: of([prover.GENERIC, *(each.path.stem for each in sources)], known)
+        archive, "run", lambda sources, **_: of([prover.GENERIC, *(each.path.stem for each in sources)], known)
     )
     for line in sorted(lines):
         done = CliRunner().invoke(app, line.split()[1:])
@@ -148,7 +148,11 @@ def test_what_every_drive_shares_is_proved_once_for_the_same_text(
 ) -> None:
     shared = [each for each in rules.shared() if each.block in ("MB_Plus", "MB_Overdue")]
     monkeypatch.setattr(rules, "shared", lambda: shared)
-    first, again = (list(archive.run([], Cache(tmp_path))) for _ in range(2))
+    told: list[tuple[int, int, str]] = []
+    first, again = (list(archive.run([], Cache(tmp_path), lambda *each: told.append(each))) for _ in range(2))
+    ends = [(done, total, text) for done, total, text in told if done == total]
+    assert {text for _, _, text in ends} == {f"{each.block} ({prover.GENERIC})" for each in shared}
+    assert sum(total for _, total, _ in ends) == sum(len(each.outcomes) for each, _ in first)
     assert [kept for _, kept in first] == [False, False]
     assert again == [(each, True) for each, _ in first]
     monkeypatch.setattr(archive, "resources", lambda _: tmp_path)

@@ -388,9 +388,10 @@ def serial(sheet: Sheet) -> Row:
     made["unit"] = source | {"min": 1, "max": sheet.chance.choice((32, 99, 247))}
     if sheet.maybe():
         first = sheet.chance.choice((0, 1))
-        limits = {"min": 0, "max": made["unit"]["max"]}
+        limits: Row = {"min": 0, "max": made["unit"]["max"]}
         setting = sheet.setting(0, "Unit address", needed=why, default=str(first), range=limits)
-        made["unit"] |= {"setting": setting, "default": first} | ({} if first else {"no_address": 0})
+        made["unit"] |= {"setting": setting, "default": first}
+        made["unit"] |= {} if first else {"no_address": 0}
     if sheet.maybe(0.3):
         kinds: tuple[Row, ...] = ({"characters": 3.5}, {"milliseconds": 10}, {"characters": 3.5, "gap_characters": 1.5})
         made["silence"] = source | sheet.chance.choice(kinds)

@@ -122,3 +122,16 @@ def test_garbage_is_collected_afterwards_as_before(example: Unit, enabled: bool)
         assert gc.isenabled() is enabled
     finally:
         (gc.enable if was else gc.disable)()
+
+
+@pytest.mark.parametrize("jobs", [1, 2])
+def test_it_says_how_many_programs_have_run(jobs: int, example: Unit, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(runner, "LOOK_S", 0.0)
+    told: list[tuple[int, int, str]] = []
+    given = [only(example, "Scales", "0010H"), only(example, "Frames")]
+    runner.run(given, [EmbeddedEngine()], jobs=jobs, tell=lambda *each: told.append(each))
+    total = sum(len(unit.suite.programs) for unit in given)
+    counts = [count for count, _, _ in told]
+    assert (counts[0], counts == sorted(counts), {each for _, each, _ in told}) == (0, True, {total})
+    assert 0 < counts[-1] <= total
+    assert all(text for _, _, text in told)

@@ -1,12 +1,14 @@
 """`driveblocks prove`: show that the safety rules hold in every scan, whatever comes, or the call that breaks one."""
 
 import sys
+from contextlib import closing
 from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
+from driveblocks import console
 from driveblocks.commands import JUNIT, MAPS, refuse, sources, write
 
 if TYPE_CHECKING:
@@ -40,9 +42,11 @@ def run(maps: tuple[str, ...], junit: Path | None, rules: bool) -> None:
 
     done: list[Result] = []
     try:
-        for each, kept in archive.run(sources(maps)):
-            _print(each, kept=kept, rules=rules)
-            done.append(each)
+        with closing(console.Bar(console.terminal("stderr"))) as bar:
+            for each, kept in archive.run(sources(maps), tell=bar.show):
+                bar.close()
+                _print(each, kept=kept, rules=rules)
+                done.append(each)
     except (UnsupportedError, SourceError) as error:
         refuse(f"cannot be proved: {error}")
     if junit is not None:

@@ -3,11 +3,13 @@
 import os
 import sys
 from collections.abc import Iterator
+from contextlib import closing
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
+from driveblocks import console
 from driveblocks.commands import FILE, JUNIT, MAPS, refuse, sources, write
 from structured_text import files
 
@@ -79,13 +81,15 @@ def run(  # noqa: PLR0913, PLR0917 - one parameter per option of the command lin
     read = sources(maps)
     making = click.get_current_context().obj or units  # other programs, as a test may want them
     both = languages(["en", "zh"], "utf-8")
-    made = making(read, both)
     if keep is not None:
         _keep(keep, read, both)
     engines = [each.engine for each in chosen if each.engine is not None]
     measured = [Coverage(each.name) for each in engines] if coverage or require_coverage is not None else []
     some = [counting(each) for each in engines] if measured else engines
-    programs = runner.run(made, some, time_limit, measured, jobs or min(4, os.cpu_count() or 1))
+    with closing(console.Bar(console.terminal("stderr"), ticks=False)) as bar:  # it forks
+        bar.show(0, len(read), "making the programs")
+        made = making(read, both)
+        programs = runner.run(made, some, time_limit, measured, jobs or min(4, os.cpu_count() or 1), bar.show)
     done = Run([*programs.results, *(result(each, require_coverage or 0.0) for each in measured)], programs.seconds)
     if junit is not None:
         write(junit, xml.text(done))
@@ -131,7 +135,6 @@ def _engines(name: str) -> "tuple[list[Candidate], list[Candidate]]":
 
 
 def _print(run: "Run", candidates: "list[Candidate]", chosen: "list[Candidate]") -> None:
-    from driveblocks import console
     from driveblocks.show.layout import table
 
     for each in candidates:

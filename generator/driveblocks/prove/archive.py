@@ -15,6 +15,7 @@ from driveblocks.maps.collection import Source
 from driveblocks.prove import prover, report, rules
 from driveblocks.prove.facts import facts
 from driveblocks.testing.outcome import Outcome, Result
+from driveblocks.testing.runner import Tell
 from structured_text import files
 from structured_text.engines.engine import EngineError
 from structured_text.engines.engine import Source as Text
@@ -23,7 +24,9 @@ from structured_text.engines.matiec.cache import Cache, cache_folder
 FILE = "proofs.json"
 
 
-def run(sources: Sequence[Source], cache: Cache | None = None) -> Iterator[tuple[Result, bool]]:
+def run(
+    sources: Sequence[Source], cache: Cache | None = None, tell: Tell = lambda *_: None
+) -> Iterator[tuple[Result, bool]]:
     """The results of the shared blocks, then of each drive, and whether they were kept from an earlier run.
 
     Raises UnsupportedError, CheckError.
@@ -36,7 +39,7 @@ def run(sources: Sequence[Source], cache: Cache | None = None) -> Iterator[tuple
         yield from ((each, True) for each in _read(folder / FILE))
     else:
         done = []
-        for each in prover.proved(made[prover.GENERIC], {prover.GENERIC: rules.shared()}):
+        for each in prover.proved(made[prover.GENERIC], {prover.GENERIC: rules.shared()}, tell):
             done.append(report.result(each))
             yield done[-1], False
         if all(each.passed for each in done):
@@ -44,7 +47,7 @@ def run(sources: Sequence[Source], cache: Cache | None = None) -> Iterator[tuple
                 cache.entry(key, lambda making: _write(making / FILE, done))
     every = {each.path: each for some in made.values() for each in some}
     subjects = {each.path.stem: rules.family(facts(each.drive)) for each in sources}
-    for proof in prover.proved(list(every.values()), subjects):
+    for proof in prover.proved(list(every.values()), subjects, tell):
         yield report.result(proof), False
 
 

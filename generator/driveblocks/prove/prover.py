@@ -16,6 +16,7 @@ from driveblocks.prove.replay import Call, Replay
 from driveblocks.prove.rules import Subject
 from driveblocks.render import library
 from driveblocks.render.text import languages
+from driveblocks.testing.runner import Tell
 from structured_text.engines.engine import Source as Text
 
 GENERIC = "every drive"
@@ -74,7 +75,9 @@ def texts(sources: Sequence[Source]) -> Iterator[tuple[str, list[Text]]]:
         yield source.path.stem, [*generic, *(Text(each.path, each.text) for each in own)]
 
 
-def proved(sources: Sequence[Text], subjects: Mapping[str, Sequence[Subject]]) -> Iterator[Proved]:
+def proved(
+    sources: Sequence[Text], subjects: Mapping[str, Sequence[Subject]], tell: Tell = lambda *_: None
+) -> Iterator[Proved]:
     """The proofs of each unit's subjects; parts that they name are proved elsewhere. UnsupportedError, CheckError."""
     asked = [(unit, each) for unit, some in subjects.items() for each in some]
     named = {name for _, each in asked for name in each.inside.values()} - {each.block for _, each in asked}
@@ -86,9 +89,12 @@ def proved(sources: Sequence[Text], subjects: Mapping[str, Sequence[Subject]]) -
         begin = time.perf_counter()
         parts_of = model.subject.inside.items()
         inside = {name: by_name[block] for name, block in parts_of if name.upper() in model.pou.symbols}
-        found = answers(questions(model, inside), exact=model.subject.exact)
-        proofs = tuple(_replayed(replay, model, each) for each in found)
-        yield Proved(unit, model, proofs, time.perf_counter() - begin)
+        every, proofs = list(questions(model, inside)), list[Proof]()
+        tell(0, len(every), f"{model.pou.name} ({unit})")
+        for each in answers(every, exact=model.subject.exact):
+            proofs.append(_replayed(replay, model, each))
+            tell(len(proofs), len(every), f"{model.pou.name} ({unit})")
+        yield Proved(unit, model, tuple(proofs), time.perf_counter() - begin)
 
 
 def _replayed(replay: Replay, model: Model, answer: Answer) -> Proof:

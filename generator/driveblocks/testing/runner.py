@@ -1,13 +1,15 @@
 """Run suites on engines: build once per engine, run its programs, and keep going whatever goes wrong."""
 
 import time
-from collections.abc import Iterable, Iterator, Sequence
-from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
 from dataclasses import replace
 from functools import partial
 from itertools import groupby
+from multiprocessing import Value
 from operator import itemgetter
+from typing import Any
 
 from driveblocks.maps.view import UNPROVED
 from driveblocks.testing.coverage import Counted, Coverage
@@ -26,50 +28,71 @@ SECONDS = 120.0
 BUILDS = 2
 """Builds at once, where compilers are processes of their own."""
 
+LOOK_S = 0.2
+"""Between two looks at how far the processes are."""
+
+Tell = Callable[[int, int, str], None]
+"""Takes how much of how much is done, and what is at hand."""
+
 _Built = Library | EngineError
+_RAN: list[Any] = []
+"""In a process that runs a share: the number of programs that all of them have run."""
 
 
-def run(
+def run(  # noqa: PLR0913, PLR0917 - what runs on what, how, and who is told of it
     units: Sequence[Unit],
     engines: Sequence[Engine],
     seconds: float = SECONDS,
     coverage: Sequence[Coverage] = (),
     jobs: int = 1,
+    tell: Tell = lambda *_: None,
 ) -> Run:
     """Run every program of every unit on every engine; results in the order of engines, units and programs.
 
     What has run of the blocks is added to the `coverage` of an engine's name, if the engine counts. Where nothing is
     counted, `jobs` processes of the embedded engine compile and run a share of the programs each.
     """
-    start = time.perf_counter()
+    start, total = time.perf_counter(), sum(len(unit.suite.programs) for unit in units)
     results: list[Result] = []
     with paused(), ThreadPoolExecutor(BUILDS) as pool:
         for engine in engines:
             sums = [each for each in coverage if each.engine == engine.name]
             if jobs > 1 and engine.name == EMBEDDED and not sums:
-                results += _side_by_side(units, seconds, jobs)
+                results += _side_by_side(units, seconds, jobs, lambda ran: tell(ran, total, "compiling, then running"))
                 continue
+            ran = 0
+            tell(ran, total, f"compiling for {engine.name}")
             made = zip(units, _builds(engine, units, pool), strict=True)
             for built, those in groupby(made, key=itemgetter(1)):
                 sharing = [unit for unit, _ in those]
                 for unit in sharing:
+                    tell(ran, total, f"{unit.suite.name} on {engine.name}")
+                    ran += len(unit.suite.programs)
                     results += _results(engine, unit, built, seconds)
                 results += [trouble for each in sums for trouble in _counted(each, sharing, built)]
     return Run(results, time.perf_counter() - start)
 
 
-def _side_by_side(units: Sequence[Unit], seconds: float, jobs: int) -> list[Result]:
+def _side_by_side(units: Sequence[Unit], seconds: float, jobs: int, tell: Callable[[int], None]) -> list[Result]:
     """What the embedded engine finds, in as many processes, in the order of units and programs."""
+    ran = Value("l")
     shares = [[_share(unit, at, jobs) for unit in units] for at in range(jobs)]
     try:
-        with ProcessPoolExecutor(jobs) as pool:
-            found = [result for results in pool.map(partial(_embedded, seconds=seconds), shares) for result in results]
+        with ProcessPoolExecutor(jobs, initializer=_counts_in, initargs=(ran,)) as pool:
+            parts = [pool.submit(_embedded, share, seconds) for share in shares]
+            while wait(parts, LOOK_S).not_done:
+                tell(ran.value)
+            found = [result for part in parts for result in part.result()]
     except BrokenProcessPool:  # a process was killed, as for its memory
         return _embedded(units, seconds)
     order = {unit.suite.name: {each.name: at for at, each in enumerate(unit.suite.programs)} for unit in units}
     names = list(order)
     unlike = [each for at, each in enumerate(found) if each not in found[:at] or each.group != "Build"]
     return sorted(unlike, key=lambda each: (names.index(each.unit), order[each.unit].get(each.program, -1)))
+
+
+def _counts_in(ran: Any) -> None:
+    _RAN.append(ran)
 
 
 def _share(unit: Unit, at: int, jobs: int) -> Unit:
@@ -127,6 +150,9 @@ def _results(engine: Engine, unit: Unit, built: _Built, seconds: float) -> Itera
     setting = Setting(engine.name, name, ROOT, seconds)
     for program in unit.suite.programs:
         yield execute(built, program, setting)
+        for ran in _RAN:
+            with ran.get_lock():
+                ran.value += 1
 
 
 def _preparations(engine: Engine, unit: Unit, built: _Built) -> Iterator[Outcome]:

@@ -1,7 +1,5 @@
 """Python's cyclic garbage collector, which walks over a growing tree again and again and finds nothing to collect."""
 
-from __future__ import annotations
-
 import gc
 from collections.abc import Iterator
 from contextlib import contextmanager

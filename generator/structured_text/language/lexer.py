@@ -1,7 +1,5 @@
 """Text -> tokens, by one compiled expression. Comments and pragmas are kept beside the tokens, with their places."""
 
-from __future__ import annotations
-
 import re
 from dataclasses import dataclass, field
 

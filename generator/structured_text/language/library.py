@@ -1,31 +1,12 @@
 """Every name that several files declare together, and the constants that types are made of."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
+from structured_text.language import tree
 from structured_text.language.report import Report
 from structured_text.language.reserved import ELEMENTARY_NAMES
-from structured_text.language.tree import (
-    Binary,
-    Configuration,
-    Element,
-    EnumValue,
-    Expression,
-    Function,
-    FunctionBlock,
-    Literal,
-    Name,
-    Program,
-    TypeDecl,
-    Unary,
-    Unit,
-    VarBlock,
-    VarDecl,
-    VarKind,
-)
 
-Named = TypeDecl | Function | FunctionBlock | Program | Configuration
+Named = tree.TypeDecl | tree.Function | tree.FunctionBlock | tree.Program | tree.Configuration
 
 
 class Library:
@@ -33,39 +14,41 @@ class Library:
 
     __slots__ = ("configurations", "enum_values", "global_variables", "names", "report", "units")
 
-    def __init__(self, units: list[Unit], report: Report) -> None:
+    def __init__(self, units: list[tree.Unit], report: Report) -> None:
         """Collect what the files declare at the outermost level; duplicates are reported."""
         self.units = units
         self.report = report
-        self.names: dict[str, tuple[Named, Unit]] = {}
-        self.configurations: dict[str, Configuration] = {}
-        self.enum_values: dict[str, list[EnumValue]] = {}
-        self.global_variables: dict[str, VarDecl] = {}
+        self.names: dict[str, tuple[Named, tree.Unit]] = {}
+        self.configurations: dict[str, tree.Configuration] = {}
+        self.enum_values: dict[str, list[tree.EnumValue]] = {}
+        self.global_variables: dict[str, tree.VarDecl] = {}
         for unit in units:
             report.unit = unit
             for element in unit.elements:
                 self._declare(element, unit)
 
-    def _declare(self, element: Element, unit: Unit) -> None:
+    def _declare(self, element: tree.Element, unit: tree.Unit) -> None:
         """Enter one element."""
-        if isinstance(element, VarBlock):
+        if isinstance(element, tree.VarBlock):
             self.enter_globals([element])
-        elif isinstance(element, TypeDecl | Function | FunctionBlock | Program | Configuration):
+        elif isinstance(
+            element, tree.TypeDecl | tree.Function | tree.FunctionBlock | tree.Program | tree.Configuration
+        ):
             first = self.names.setdefault(element.name.upper(), (element, unit))
             if first[0] is not element:
                 line = first[1].line(first[0].at)
                 where = f"{first[1].path}:{line}"
                 self.report.add(element.at, "duplicate-name", f"{element.name} is declared at {where} already")
-            if isinstance(element, Configuration):
+            if isinstance(element, tree.Configuration):
                 self.configurations.setdefault(element.name.upper(), element)
                 self.enter_globals(element.blocks)
                 for resource in element.resources:
                     self.enter_globals(resource.blocks)
 
-    def enter_globals(self, blocks: list[VarBlock]) -> None:
+    def enter_globals(self, blocks: list[tree.VarBlock]) -> None:
         """Enter the variables of VAR_GLOBAL blocks."""
         for block in blocks:
-            for variable in block.variables if block.kind is VarKind.GLOBAL else ():
+            for variable in block.variables if block.kind is tree.VarKind.GLOBAL else ():
                 self.global_variables.setdefault(variable.name.upper(), variable)
 
     def find(self, name: str) -> Named | None:
@@ -78,20 +61,20 @@ class Library:
         return [*ELEMENTARY_NAMES, *(named.name for named, _ in self.names.values())]
 
 
-def fold(value: Expression, constant: Callable[[str], Expression | None], depth: int = 0) -> int | None:
+def fold(value: tree.Expression, constant: Callable[[str], tree.Expression | None], depth: int = 0) -> int | None:
     """The value of an integer expression of literals and constants; None if it is something else.
 
     `constant` gives the initial value of a constant by its name.
     """
-    if isinstance(value, Literal):
+    if isinstance(value, tree.Literal):
         return value.value if isinstance(value.value, int) and not isinstance(value.value, bool) else None
-    if isinstance(value, Name):
+    if isinstance(value, tree.Name):
         initial = constant(value.name) if depth < 8 else None
         return None if initial is None else fold(initial, constant, depth + 1)
-    if isinstance(value, Unary):
+    if isinstance(value, tree.Unary):
         inner = fold(value.operand, constant, depth)
         return None if inner is None or value.op == "NOT" else (-inner if value.op == "-" else inner)
-    if isinstance(value, Binary):
+    if isinstance(value, tree.Binary):
         return _fold_binary(value.op, fold(value.left, constant, depth), fold(value.right, constant, depth))
     return None
 

@@ -1,7 +1,5 @@
 """The portability linter: what some compiler refuses, crashes on or compiles to something else, by name."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass
@@ -39,7 +37,7 @@ class Selection:
     ignore: frozenset[str] = frozenset()
 
     @classmethod
-    def of(cls, select: Iterable[str], ignore: Iterable[str]) -> Selection:
+    def of(cls, select: Iterable[str], ignore: Iterable[str]) -> "Selection":
         """From names, codes, or beginnings of codes (`ST3`), in any case of letters. Raises UnknownRuleError."""
         return cls(
             frozenset(name for each in select for name in _named(each)),

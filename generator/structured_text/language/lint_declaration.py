@@ -1,63 +1,33 @@
 """Rules about names, types and variables."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
+from structured_text.language import tree
 from structured_text.language.lint_scope import Scope
 from structured_text.language.names import badly_underscored, reserved, reserved_outside
 from structured_text.language.report import Report
-from structured_text.language.tree import (
-    Array,
-    ArrayInitial,
-    ArraySpec,
-    Block,
-    Checked,
-    Configuration,
-    Enum,
-    EnumSpec,
-    Expression,
-    Function,
-    FunctionBlock,
-    Literal,
-    NamedSpec,
-    Pou,
-    Program,
-    Repeat,
-    Spec,
-    StringSpec,
-    Struct,
-    StructInitial,
-    StructSpec,
-    SubrangeSpec,
-    TypeDecl,
-    Unit,
-    VarBlock,
-    VarDecl,
-    VarKind,
-)
 from structured_text.language.types import Kind
 from structured_text.language.walk import expressions
 
-_PARAMETERS = frozenset([VarKind.INPUT, VarKind.OUTPUT, VarKind.IN_OUT])
+_PARAMETERS = frozenset([tree.VarKind.INPUT, tree.VarKind.OUTPUT, tree.VarKind.IN_OUT])
 
 
-def unit(unit: Unit, report: Report) -> None:
+def unit(unit: tree.Unit, report: Report) -> None:
     """All rules about the declarations of one file outside of POUs."""
     _order(unit, report)
     for element in unit.elements:
-        if isinstance(element, TypeDecl):
+        if isinstance(element, tree.TypeDecl):
             _type(element, report)
-        elif isinstance(element, VarBlock):
+        elif isinstance(element, tree.VarBlock):
             _block(element, report)
-        elif isinstance(element, Configuration):
+        elif isinstance(element, tree.Configuration):
             _configuration(element, report)
     for named in unit.elements:
-        if isinstance(named, Program) and named.name.upper() == "MAIN":
+        if isinstance(named, tree.Program) and named.name.upper() == "MAIN":
             text = "a PROGRAM called main is refused by matiec's C: choose another name"
             report.add(named.name_at, "reserved-name", text)
-        if isinstance(named, TypeDecl | Pou | Configuration):
-            _outer_name(named.name_at if isinstance(named, Pou) else named.at, named.name, report)
+        if isinstance(named, tree.TypeDecl | tree.Pou | tree.Configuration):
+            _outer_name(named.name_at if isinstance(named, tree.Pou) else named.at, named.name, report)
 
 
 def pou(scope: Scope) -> None:
@@ -70,7 +40,7 @@ def pou(scope: Scope) -> None:
             _hidden(scope, variable, values)
             _parameter(scope, variable)
             _trigger(scope, variable)
-    if isinstance(scope.pou, Function):
+    if isinstance(scope.pou, tree.Function):
         _function(scope, scope.pou)
 
 
@@ -93,10 +63,10 @@ def _name(at: int, name: str, report: Report) -> None:
         report.add(at, "non-ascii-name", f"{name} has letters beyond ASCII, which most compilers refuse")
 
 
-def _type(declared: TypeDecl, report: Report) -> None:
+def _type(declared: tree.TypeDecl, report: Report) -> None:
     """A TYPE declaration."""
     _spec(declared.spec, report)
-    if isinstance(declared.spec, NamedSpec) and declared.spec.type.kind is not Kind.NONE:
+    if isinstance(declared.spec, tree.NamedSpec) and declared.spec.type.kind is not Kind.NONE:
         text = f"IronPLC refuses another name for a type: write {declared.spec.name} in place of {declared.name}"
         report.add(declared.at, "alias-type", text)
     if declared.initial is not None:
@@ -105,36 +75,36 @@ def _type(declared: TypeDecl, report: Report) -> None:
         _initial(declared.initial, report)
 
 
-def _spec(spec: Spec, report: Report) -> None:
-    if isinstance(spec, StringSpec):
+def _spec(spec: tree.Spec, report: Report) -> None:
+    if isinstance(spec, tree.StringSpec):
         if spec.length is not None:
             report.add(spec.at, "sized-string", "STRING with a length is refused by matiec: write STRING")
         if spec.wide:
             report.add(spec.at, "wide-string", "WSTRING is refused by matiec: write STRING")
-    elif isinstance(spec, ArraySpec):
+    elif isinstance(spec, tree.ArraySpec):
         _array(spec, report)
-    elif isinstance(spec, SubrangeSpec):
+    elif isinstance(spec, tree.SubrangeSpec):
         report.add(spec.at, "subrange", f"STruC++ and IronPLC refuse subranges: write {spec.base} and check the limits")
-    elif isinstance(spec, StructSpec):
+    elif isinstance(spec, tree.StructSpec):
         _struct(spec, report)
-    elif isinstance(spec, EnumSpec):
+    elif isinstance(spec, tree.EnumSpec):
         _enum(spec, report)
 
 
-def _array(spec: ArraySpec, report: Report) -> None:
+def _array(spec: tree.ArraySpec, report: Report) -> None:
     """An array."""
     _spec(spec.element, report)
-    if isinstance(spec.element.type, Array):
+    if isinstance(spec.element.type, tree.Array):
         text = "an array of arrays is refused by matiec: use two dimensions, or an array of structures"
         report.add(spec.at, "array-of-array", text)
     for each in spec.ranges:
         for bound in (each.low, each.high) if each is not None else ():
-            if isinstance(bound, Literal) and (bound.base != 10 or bound.prefix):
+            if isinstance(bound, tree.Literal) and (bound.base != 10 or bound.prefix):
                 text = f"matiec refuses {bound.text} as a bound: write {bound.value!r}"
                 report.add(bound.at, "constant-bound", text)
 
 
-def _struct(spec: StructSpec, report: Report) -> None:
+def _struct(spec: tree.StructSpec, report: Report) -> None:
     """A structure."""
     if not spec.fields:
         report.add(spec.at, "empty-var-block", "matiec refuses a structure without fields: give it one")
@@ -145,7 +115,7 @@ def _struct(spec: StructSpec, report: Report) -> None:
             report.add(field.at, "grouped-fields", text)
 
 
-def _enum(spec: EnumSpec, report: Report) -> None:
+def _enum(spec: tree.EnumSpec, report: Report) -> None:
     """An enumeration."""
     if spec.base is not None:
         report.add(spec.at, "enum-number", "a base type for an enumeration is refused by matiec: write (A, B, C)")
@@ -156,7 +126,7 @@ def _enum(spec: EnumSpec, report: Report) -> None:
             report.add(item.at, "enum-number", text)
 
 
-def _configuration(configuration: Configuration, report: Report) -> None:
+def _configuration(configuration: tree.Configuration, report: Report) -> None:
     """The globals of a configuration."""
     blocks = [*configuration.blocks, *(block for resource in configuration.resources for block in resource.blocks)]
     for block in blocks:
@@ -173,39 +143,39 @@ def _configuration(configuration: Configuration, report: Report) -> None:
                 report.add(instance.at, "program-connection", text)
 
 
-def _block(block: VarBlock, report: Report) -> None:
+def _block(block: tree.VarBlock, report: Report) -> None:
     if not block.variables:
         report.add(block.at, "empty-var-block", "matiec crashes on a VAR block without variables: remove it")
     _qualifiers(block, report)
-    if block.kind in (VarKind.GLOBAL, VarKind.EXTERNAL):
+    if block.kind in (tree.VarKind.GLOBAL, tree.VarKind.EXTERNAL):
         text = f"{block.kind.value}: libraries have no globals; compilers differ on them: use parameters"
         report.add(block.at, "global-variable", text)
     for variable in block.variables:
         _variable(variable, report)
 
 
-def _qualifiers(block: VarBlock, report: Report) -> None:
+def _qualifiers(block: tree.VarBlock, report: Report) -> None:
     """What follows VAR."""
-    if block.kind in (VarKind.STAT, VarKind.INSTANCE):
+    if block.kind in (tree.VarKind.STAT, tree.VarKind.INSTANCE):
         report.add(block.at, "var-qualifier", f"{block.kind.value} is refused by matiec: write VAR")
     for word in block.qualifiers:
-        if word == "CONSTANT" and block.kind not in (VarKind.LOCAL, VarKind.GLOBAL, VarKind.EXTERNAL):
+        if word == "CONSTANT" and block.kind not in (tree.VarKind.LOCAL, tree.VarKind.GLOBAL, tree.VarKind.EXTERNAL):
             text = f"matiec crashes on {block.kind.value} CONSTANT: write VAR CONSTANT"
             report.add(block.at, "var-qualifier", text)
         elif word not in ("CONSTANT", "RETAIN", "NON_RETAIN"):
             report.add(block.at, "var-qualifier", f"{word} is refused by matiec: leave it out, or write RETAIN")
 
 
-def _variable(variable: VarDecl, report: Report) -> None:
+def _variable(variable: tree.VarDecl, report: Report) -> None:
     """A variable or field."""
-    if variable.name and variable.kind not in (VarKind.CONFIG, VarKind.ACCESS):
+    if variable.name and variable.kind not in (tree.VarKind.CONFIG, tree.VarKind.ACCESS):
         _name(variable.at, variable.name, report)
     if variable.address is not None:
         text = f"AT {variable.address} ties the text to one machine: pass the value through a parameter"
         report.add(variable.at, "direct-address", text)
     if variable.grouped:
         return
-    if isinstance(variable.spec, StructSpec | EnumSpec):
+    if isinstance(variable.spec, tree.StructSpec | tree.EnumSpec):
         text = f"matiec crashes on a type written out for a variable: name it in a TYPE, and {variable.name} by that"
         report.add(variable.at, "anonymous-type", text)
     _spec(variable.spec, report)
@@ -213,21 +183,19 @@ def _variable(variable: VarDecl, report: Report) -> None:
         _initial(variable.initial, report)
 
 
-def _initial(value: Expression, report: Report) -> None:
+def _initial(value: tree.Expression, report: Report) -> None:
     """An initial value."""
     for each in expressions(value):
-        if isinstance(each, StructInitial):
+        if isinstance(each, tree.StructInitial):
             rule, what = "struct-initial", "a structure is refused by STruC++, and by matiec with typed literals"
-            if isinstance(each.type, Block):
+            if isinstance(each.type, tree.Block):
                 rule, what = "instance-initial", "an instance is refused by STruC++"
             report.add(each.at, rule, f"an initial value for {what}: assign the members in the first scan")
-        elif isinstance(each, Repeat):
+        elif isinstance(each, tree.Repeat):
             report.add(each.at, "repeat-initial", "STruC++ refuses n(x): write every value")
-        elif isinstance(each, ArrayInitial) and each is not value and isinstance(each.type, Array):
-            continue
 
 
-def _outer_names(checked: Checked) -> dict[str, str]:
+def _outer_names(checked: tree.Checked) -> dict[str, str]:
     """The names that a variable would clash with, and what they are."""
     made = dict.fromkeys(checked.types, "a type")
     made |= dict.fromkeys(checked.functions, "a function")
@@ -235,7 +203,7 @@ def _outer_names(checked: Checked) -> dict[str, str]:
     return made | dict.fromkeys(checked.programs, "a program")
 
 
-def _clash(scope: Scope, variable: VarDecl, names: dict[str, str]) -> None:
+def _clash(scope: Scope, variable: tree.VarDecl, names: dict[str, str]) -> None:
     """A variable with the name of something else."""
     what = names.get(variable.name.upper())
     if what:
@@ -243,13 +211,13 @@ def _clash(scope: Scope, variable: VarDecl, names: dict[str, str]) -> None:
         scope.add(variable.at, "name-clash", text)
 
 
-def _values(checked: Checked) -> dict[str, str]:
+def _values(checked: tree.Checked) -> dict[str, str]:
     """Every enumerated value, and its type."""
-    enums = [each for each in checked.types.values() if isinstance(each, Enum)]
+    enums = [each for each in checked.types.values() if isinstance(each, tree.Enum)]
     return {value: enum.name for enum in enums for value in enum.values}
 
 
-def _hidden(scope: Scope, variable: VarDecl, values: dict[str, str]) -> None:
+def _hidden(scope: Scope, variable: tree.VarDecl, values: dict[str, str]) -> None:
     """A variable that hides an enumerated value."""
     enum = values.get(variable.name.upper())
     if enum:
@@ -257,22 +225,22 @@ def _hidden(scope: Scope, variable: VarDecl, values: dict[str, str]) -> None:
         scope.add(variable.at, "hidden-value", text)
 
 
-def _parameter(scope: Scope, variable: VarDecl) -> None:
+def _parameter(scope: Scope, variable: tree.VarDecl) -> None:
     """Arrays as parameters, and temporaries of structures."""
-    composed = isinstance(variable.type, Array | Struct)
-    if variable.kind is VarKind.TEMP and composed:
+    composed = isinstance(variable.type, tree.Array | tree.Struct)
+    if variable.kind is tree.VarKind.TEMP and composed:
         text = "matiec writes C that does not compile for a VAR_TEMP of a structure or array: write VAR"
         scope.add(variable.at, "temp-struct", text)
-    if variable.kind not in _PARAMETERS or not isinstance(variable.type, Array):
+    if variable.kind not in _PARAMETERS or not isinstance(variable.type, tree.Array):
         return
-    if isinstance(variable.spec, ArraySpec):
+    if isinstance(variable.spec, tree.ArraySpec):
         text = (
             f"matiec refuses an array type written out for a parameter: name it in a TYPE, and {variable.name} by that"
         )
         scope.add(variable.at, "anonymous-array", text)
-    if variable.kind is VarKind.IN_OUT:
+    if variable.kind is tree.VarKind.IN_OUT:
         return
-    if isinstance(scope.pou, Function) and variable.kind is VarKind.INPUT:
+    if isinstance(scope.pou, tree.Function) and variable.kind is tree.VarKind.INPUT:
         text = "matiec writes C that does not compile for an array as input of a FUNCTION: use a block with VAR_IN_OUT"
         scope.add(variable.at, "function-array-input", text)
     else:
@@ -280,42 +248,42 @@ def _parameter(scope: Scope, variable: VarDecl) -> None:
         scope.add(variable.at, "array-parameter", text)
 
 
-def _trigger(scope: Scope, variable: VarDecl) -> None:
+def _trigger(scope: Scope, variable: tree.VarDecl) -> None:
     """F_TRIG differs between the matiecs."""
-    if isinstance(variable.type, Block) and variable.type.name == "F_TRIG":
+    if isinstance(variable.type, tree.Block) and variable.type.name == "F_TRIG":
         text = "F_TRIG differs between the matiecs on its first scan: use R_TRIG of the negation, or own edge memory"
         scope.add(variable.at, "f-trig", text)
 
 
-def _function(scope: Scope, pou: Function) -> None:
+def _function(scope: Scope, pou: tree.Function) -> None:
     """A FUNCTION."""
     kinds = {block.kind for block in pou.blocks if block.variables}
-    if VarKind.IN_OUT in kinds:
+    if tree.VarKind.IN_OUT in kinds:
         text = "IronPLC refuses VAR_IN_OUT in a FUNCTION: use a function block"
-        scope.add(_first(pou, VarKind.IN_OUT), "function-in-out", text)
-    if VarKind.OUTPUT in kinds:
+        scope.add(_first(pou, tree.VarKind.IN_OUT), "function-in-out", text)
+    if tree.VarKind.OUTPUT in kinds:
         text = "IronPLC refuses VAR_OUTPUT in a FUNCTION: use a function block"
-        scope.add(_first(pou, VarKind.OUTPUT), "function-output", text)
-    if VarKind.INPUT not in kinds:
+        scope.add(_first(pou, tree.VarKind.OUTPUT), "function-output", text)
+    if tree.VarKind.INPUT not in kinds:
         text = f"matiec refuses a FUNCTION without inputs: give {pou.name} a VAR_INPUT"
         scope.add(pou.name_at, "function-no-input", text)
     _constants_last(scope, pou)
     for variable in pou.symbols.values():
-        if isinstance(variable.type, Array) and variable.initial is not None:
+        if isinstance(variable.type, tree.Array) and variable.initial is not None:
             text = "the table is built again on every call of the FUNCTION: keep it in a function block"
             scope.add(variable.at, "function-array-table", text)
 
 
-def _first(pou: Pou, kind: VarKind) -> int:
+def _first(pou: tree.Pou, kind: tree.VarKind) -> int:
     """Where the first block of a kind is."""
     return next(block.at for block in pou.blocks if block.kind is kind)
 
 
-def _constants_last(scope: Scope, pou: Function) -> None:
+def _constants_last(scope: Scope, pou: tree.Function) -> None:
     """VAR after VAR CONSTANT becomes constant in a FUNCTION."""
     constant = False
     for block in pou.blocks:
-        if block.kind is not VarKind.LOCAL:
+        if block.kind is not tree.VarKind.LOCAL:
             continue
         if "CONSTANT" in block.qualifiers:
             constant = True
@@ -324,11 +292,11 @@ def _constants_last(scope: Scope, pou: Function) -> None:
             scope.add(block.at, "constant-before-var", text)
 
 
-def _order(unit: Unit, report: Report) -> None:
+def _order(unit: tree.Unit, report: Report) -> None:
     """Types, functions, inner blocks and outer blocks come before what uses them."""
     places: dict[str, int] = {}
     for element in unit.elements:
-        if isinstance(element, TypeDecl | Function | FunctionBlock | Program):
+        if isinstance(element, tree.TypeDecl | tree.Function | tree.FunctionBlock | tree.Program):
             places.setdefault(element.name.upper(), element.at)
     for element in unit.elements:
         for at, name in _uses(element):
@@ -339,10 +307,10 @@ def _order(unit: Unit, report: Report) -> None:
 
 def _uses(element: object) -> Iterator[tuple[int, str]]:
     """The names of types that a declaration uses, with their places."""
-    if isinstance(element, TypeDecl):
+    if isinstance(element, tree.TypeDecl):
         yield from _used_by(element.spec)
-    elif isinstance(element, Pou):
-        if isinstance(element, Function) and element.returns is not None:
+    elif isinstance(element, tree.Pou):
+        if isinstance(element, tree.Function) and element.returns is not None:
             yield from _used_by(element.returns)
         for block in element.blocks:
             for variable in block.variables:
@@ -350,13 +318,13 @@ def _uses(element: object) -> Iterator[tuple[int, str]]:
                     yield from _used_by(variable.spec)
 
 
-def _used_by(spec: Spec) -> Iterator[tuple[int, str]]:
+def _used_by(spec: tree.Spec) -> Iterator[tuple[int, str]]:
     """The names in a specification."""
-    if isinstance(spec, NamedSpec):
+    if isinstance(spec, tree.NamedSpec):
         yield spec.at, spec.name
-    elif isinstance(spec, ArraySpec):
+    elif isinstance(spec, tree.ArraySpec):
         yield from _used_by(spec.element)
-    elif isinstance(spec, StructSpec):
+    elif isinstance(spec, tree.StructSpec):
         for field in spec.fields:
             if not field.grouped:
                 yield from _used_by(field.spec)

@@ -1,7 +1,5 @@
 """Rules about how literals are written."""
 
-from __future__ import annotations
-
 import re
 
 from structured_text.language.lint_scope import Scope, literals_of

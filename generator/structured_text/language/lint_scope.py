@@ -1,7 +1,5 @@
 """What a portability rule sees of one POU."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 

@@ -1,7 +1,5 @@
 """Rules about names that count where a text is to go to a certain target."""
 
-from __future__ import annotations
-
 from collections.abc import Collection, Iterator
 
 from structured_text.language.names import kept, reserved

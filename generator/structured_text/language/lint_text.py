@@ -1,7 +1,5 @@
 """Rules about the text itself: comments, marks, and how declarations lie in a file."""
 
-from __future__ import annotations
-
 from structured_text.language.report import Report
 from structured_text.language.tree import Configuration, Function, FunctionBlock, Program, TypeDecl, Unit
 

@@ -1,7 +1,5 @@
 """Literals: spelling -> value, by tables 4, 5, 7 of IEC 61131-3, second edition."""
 
-from __future__ import annotations
-
 import re
 from calendar import monthrange
 from collections.abc import Callable

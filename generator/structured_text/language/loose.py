@@ -5,8 +5,6 @@ has no room for, until it is stored. Others cut at once. Where only the low bits
 nobody sees the difference; a comparison, a division, a right shift or a conversion to a wider type does.
 """
 
-from __future__ import annotations
-
 from structured_text.language.lint_scope import Scope
 from structured_text.language.ranges import whole
 from structured_text.language.tree import Binary, Builtin, Call, Expression, Literal, Unary

@@ -1,7 +1,5 @@
 """Which names a portable source must not use, and why."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterable
 from functools import lru_cache

@@ -1,7 +1,5 @@
 """A source file -> its tree; everything that is wrong is reported at once."""
 
-from __future__ import annotations
-
 from bisect import bisect_left, bisect_right
 from collections.abc import Sequence
 

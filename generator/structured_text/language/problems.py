@@ -1,7 +1,5 @@
 """What is wrong with a source, and the errors that carry it."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 

@@ -4,31 +4,14 @@ Not a proof: a variable has the range of all that is ever assigned to it in its 
 in-outs, what is passed by reference and what nobody assigns to may be anything of their type.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 from functools import cache
 
-from structured_text.language.tree import (
-    Assign,
-    Binary,
-    Builtin,
-    Call,
-    Direction,
-    Expression,
-    For,
-    Literal,
-    Name,
-    Pou,
-    Statement,
-    Unary,
-    VarDecl,
-    VarKind,
-)
+from structured_text.language import tree
 from structured_text.language.types import Elementary, Kind, Subrange, Type, plain
 
 Interval = tuple[int, int]
-_OWN = frozenset([VarKind.LOCAL, VarKind.OUTPUT, VarKind.TEMP, VarKind.RESULT])
+_OWN = frozenset([tree.VarKind.LOCAL, tree.VarKind.OUTPUT, tree.VarKind.TEMP, tree.VarKind.RESULT])
 _ROUNDS = 4
 
 
@@ -48,33 +31,33 @@ class Ranges:
 
     known: dict[int, Interval] = field(default_factory=dict)
 
-    def of(self, value: Expression) -> Interval | None:
+    def of(self, value: tree.Expression) -> Interval | None:
         """The range of an expression before it is cut to its type; None if it is no integer or bit string."""
-        if isinstance(value, Literal):
+        if isinstance(value, tree.Literal):
             return (int(value.value), int(value.value)) if isinstance(value.value, int) else None
-        if isinstance(value, Name) and isinstance(value.symbol, VarDecl):
+        if isinstance(value, tree.Name) and isinstance(value.symbol, tree.VarDecl):
             return self.known.get(id(value.symbol)) or whole(value.type)
-        if isinstance(value, Unary) and value.op == "-":
+        if isinstance(value, tree.Unary) and value.op == "-":
             inner = self.of(value.operand)
             return inner and (-inner[1], -inner[0])
         return self.computed(value)
 
-    def computed(self, value: Expression) -> Interval | None:
+    def computed(self, value: tree.Expression) -> Interval | None:
         """The range of an operation or call; of anything else that of its type."""
-        if isinstance(value, Binary):
+        if isinstance(value, tree.Binary):
             return self.binary(value)
-        if isinstance(value, Call) and isinstance(value.target, Builtin):
+        if isinstance(value, tree.Call) and isinstance(value.target, tree.Builtin):
             return self.call(value, value.target)
         return whole(value.type)
 
-    def cut(self, value: Expression) -> Interval | None:
+    def cut(self, value: tree.Expression) -> Interval | None:
         """The range of an expression as its type can hold it."""
         found, limits = self.of(value), whole(plain(value.type))
         if found is None or limits is None:
             return limits
         return found if limits[0] <= found[0] and found[1] <= limits[1] else limits
 
-    def binary(self, value: Binary) -> Interval | None:
+    def binary(self, value: tree.Binary) -> Interval | None:
         """The range of an operation."""
         left, right = self.cut(value.left), self.cut(value.right)
         if left is None or right is None or whole(value.type) is None:
@@ -87,7 +70,7 @@ class Ranges:
             return 0, min(left[1], right[1]) if value.op == "AND" else (1 << max(left[1], right[1]).bit_length()) - 1
         return whole(value.type)
 
-    def call(self, value: Call, target: Builtin) -> Interval | None:
+    def call(self, value: tree.Call, target: tree.Builtin) -> Interval | None:
         """The range of a standard function's result."""
         result = whole(plain(value.type))
         first = value.bindings[0].value if value.bindings else None
@@ -100,10 +83,10 @@ class Ranges:
             return self.shift(value, target.family, inner)
         return result
 
-    def shift(self, value: Call, family: str, inner: Interval) -> Interval | None:
+    def shift(self, value: tree.Call, family: str, inner: Interval) -> Interval | None:
         """The range of a shift by a literal; of SHL before it is cut."""
         count = value.bindings[1].value if len(value.bindings) > 1 else None
-        if not isinstance(count, Literal) or not isinstance(count.value, int) or not 0 <= count.value < 64:
+        if not isinstance(count, tree.Literal) or not isinstance(count.value, int) or not 0 <= count.value < 64:
             return whole(plain(value.type)) if family == "SHR" else (0, inner[1] << 63)
         if family == "SHR":
             return inner[0] >> count.value, inner[1] >> count.value
@@ -128,7 +111,7 @@ def _corners(op: str, left: Interval, right: Interval) -> Interval:
     return min(*quotients, 0), max(*quotients, 0)
 
 
-def ranges_of(pou: Pou, body: list[Statement], parts: list[Expression]) -> Ranges:
+def ranges_of(pou: tree.Pou, body: list[tree.Statement], parts: list[tree.Expression]) -> Ranges:
     """The ranges of the variables that a POU owns and only assigns to, from all of its statements and expressions."""
     assigned, opened = _assignments(body), _passed(parts)
     made = Ranges()
@@ -147,7 +130,7 @@ def ranges_of(pou: Pou, body: list[Statement], parts: list[Expression]) -> Range
     return made
 
 
-def _initial(variable: VarDecl) -> Interval | None:
+def _initial(variable: tree.VarDecl) -> Interval | None:
     """The range of the initial value."""
     if whole(variable.type) is None:
         return None
@@ -155,12 +138,12 @@ def _initial(variable: VarDecl) -> Interval | None:
     if initial is None:
         limits = whole(variable.type)
         return (0, 0) if limits and limits[0] <= 0 <= limits[1] else limits
-    if isinstance(initial, Literal) and isinstance(initial.value, int):
+    if isinstance(initial, tree.Literal) and isinstance(initial.value, int):
         return int(initial.value), int(initial.value)
     return whole(variable.type)
 
 
-def _round(made: Ranges, own: dict[int, VarDecl], assigned: list[tuple[int, Expression]], last: bool) -> bool:
+def _round(made: Ranges, own: dict[int, tree.VarDecl], assigned: list[tuple[int, tree.Expression]], last: bool) -> bool:
     """Widen every variable by what is assigned to it; whether something changed. What still grows is anything."""
     changed = False
     for key, value in assigned:
@@ -177,27 +160,27 @@ def _round(made: Ranges, own: dict[int, VarDecl], assigned: list[tuple[int, Expr
     return changed
 
 
-def _assignments(body: list[Statement]) -> list[tuple[int, Expression]]:
+def _assignments(body: list[tree.Statement]) -> list[tuple[int, tree.Expression]]:
     """Every assignment to a whole variable; the limits of FOR count as such."""
-    assigned: list[tuple[int, Expression]] = []
+    assigned: list[tuple[int, tree.Expression]] = []
     for statement in body:
-        if isinstance(statement, Assign) and isinstance(statement.target, Name):
+        if isinstance(statement, tree.Assign) and isinstance(statement.target, tree.Name):
             assigned.append((id(statement.target.symbol), statement.value))
-        elif isinstance(statement, For) and isinstance(statement.variable, Name):
+        elif isinstance(statement, tree.For) and isinstance(statement.variable, tree.Name):
             limits = (statement.start, statement.stop, statement.step)
             assigned.extend((id(statement.variable.symbol), each) for each in limits if each is not None)
     return assigned
 
 
-def _passed(parts: list[Expression]) -> set[int]:
+def _passed(parts: list[tree.Expression]) -> set[int]:
     """The variables that a call receives by reference or writes its outputs to."""
     opened: set[int] = set()
     for each in parts:
-        if not isinstance(each, Call):
+        if not isinstance(each, tree.Call):
             continue
         for binding in each.bindings:
-            if binding.parameter.direction is not Direction.INPUT and isinstance(binding.value, Name):
+            if binding.parameter.direction is not tree.Direction.INPUT and isinstance(binding.value, tree.Name):
                 opened.add(id(binding.value.symbol))
-        if isinstance(each.eno, Name):
+        if isinstance(each.eno, tree.Name):
             opened.add(id(each.eno.symbol))
     return opened

@@ -1,7 +1,5 @@
 """Collects what is wrong in several files, each thing once."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from difflib import get_close_matches
 

@@ -1,7 +1,5 @@
 """Every word that an ST name must not be: keywords, standard functions and blocks, and what single compilers refuse."""
 
-from __future__ import annotations
-
 
 def _words(text: str) -> frozenset[str]:
     """The words of a text."""

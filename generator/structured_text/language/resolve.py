@@ -1,32 +1,9 @@
 """Type specifications -> types."""
 
-from __future__ import annotations
-
+from structured_text.language import tree
 from structured_text.language.library import Library, fold
 from structured_text.language.report import nearest
 from structured_text.language.standard import BLOCKS, default_string
-from structured_text.language.tree import (
-    Array,
-    ArraySpec,
-    Block,
-    Enum,
-    EnumSpec,
-    EnumValue,
-    Expression,
-    Field,
-    FunctionBlock,
-    Literal,
-    NamedSpec,
-    PointerSpec,
-    Range,
-    Spec,
-    StringSpec,
-    Struct,
-    StructSpec,
-    SubrangeSpec,
-    TypeDecl,
-    VarDecl,
-)
 from structured_text.language.types import ELEMENTARY, UNKNOWN, VOID, Elementary, Kind, Pointer, String, Subrange, Type
 
 # An array of more elements is an accident, and would stop every tool after the checker.
@@ -42,13 +19,13 @@ class Resolver:
     def __init__(self, library: Library) -> None:
         self.library = library
         self.report = library.report
-        self.constants: dict[str, VarDecl] = {}
+        self.constants: dict[str, tree.VarDecl] = {}
         self.open: set[str] = set()
         self.depths: dict[int, int] = {}
         self.declared: dict[str, Type] = {}
-        self.starts: dict[str, Expression | None] = {}
+        self.starts: dict[str, tree.Expression | None] = {}
 
-    def declaration(self, declared: TypeDecl) -> Type:
+    def declaration(self, declared: tree.TypeDecl) -> Type:
         """The type that a TYPE declaration makes; reported if it contains itself."""
         key = declared.name.upper()
         if key in self.declared:
@@ -62,7 +39,9 @@ class Resolver:
         self.open.add(key)
         unit, self.report.unit = self.report.unit, self.library.names[key][1]
         made = self.spec(declared.spec, declared.name)
-        if isinstance(declared.spec, StructSpec | ArraySpec | EnumSpec) and isinstance(made, Struct | Array | Enum):
+        if isinstance(declared.spec, tree.StructSpec | tree.ArraySpec | tree.EnumSpec) and isinstance(
+            made, tree.Struct | tree.Array | tree.Enum
+        ):
             made.initial = declared.initial
         else:
             self.starts[key] = declared.initial if declared.initial is not None else declared.spec.start
@@ -72,12 +51,12 @@ class Resolver:
         self.declared[key] = declared.type = made
         return made
 
-    def shallow(self, declared: TypeDecl, made: Type) -> Type:
+    def shallow(self, declared: tree.TypeDecl, made: Type) -> Type:
         """The type, unless it nests so deeply that nothing could walk over it."""
         inner: list[Type] = []
-        if isinstance(made, Array):
+        if isinstance(made, tree.Array):
             inner = [made.element]
-        elif isinstance(made, Struct):
+        elif isinstance(made, tree.Struct):
             inner = [each.type for each in made.fields.values()]
         depth = 1 + max((self.depths.get(id(each), 0) for each in inner), default=0)
         self.depths[id(made)] = max(depth, self.depths.get(id(made), 0))
@@ -86,38 +65,38 @@ class Resolver:
             return UNKNOWN
         return made
 
-    def spec(self, spec: Spec, name: str = "") -> Type:
+    def spec(self, spec: tree.Spec, name: str = "") -> Type:
         """The type of a specification; `name` if a TYPE declaration gives it one."""
         made = self._made(spec, name)
         spec.type = made
         return made
 
-    def _made(self, spec: Spec, name: str) -> Type:
-        if isinstance(spec, NamedSpec):
+    def _made(self, spec: tree.Spec, name: str) -> Type:
+        if isinstance(spec, tree.NamedSpec):
             return self.named(spec)
-        if isinstance(spec, StringSpec):
+        if isinstance(spec, tree.StringSpec):
             return self.string(spec)
-        if isinstance(spec, PointerSpec):
+        if isinstance(spec, tree.PointerSpec):
             return self.pointer(spec)
         return self._composed(spec, name)
 
-    def _composed(self, spec: Spec, name: str) -> Type:
+    def _composed(self, spec: tree.Spec, name: str) -> Type:
         """The forms that make a new type."""
-        if isinstance(spec, ArraySpec):
+        if isinstance(spec, tree.ArraySpec):
             return self.array(spec, name)
-        if isinstance(spec, StructSpec):
+        if isinstance(spec, tree.StructSpec):
             return self.struct(spec, name)
-        if isinstance(spec, EnumSpec):
+        if isinstance(spec, tree.EnumSpec):
             return self.enum(spec, name)
-        return self.subrange(spec, name) if isinstance(spec, SubrangeSpec) else UNKNOWN
+        return self.subrange(spec, name) if isinstance(spec, tree.SubrangeSpec) else UNKNOWN
 
-    def pointer(self, spec: PointerSpec) -> Type:
+    def pointer(self, spec: tree.PointerSpec) -> Type:
         """A pointer or reference, which is reported."""
         self.report.add(spec.at, "pointer", f"{spec.word} is not in the second edition: pass a VAR_IN_OUT instead")
         target = self.spec(spec.target)
         return Pointer(f"{spec.word} TO {target.name}", Kind.POINTER, target)
 
-    def named(self, spec: NamedSpec) -> Type:
+    def named(self, spec: tree.NamedSpec) -> Type:
         """An elementary type, a declared one, or a function block."""
         upper = spec.name.upper()
         if upper in ELEMENTARY:
@@ -125,11 +104,11 @@ class Resolver:
         if upper == "VOID":
             return VOID
         found = self.library.find(upper)
-        if isinstance(found, TypeDecl):
+        if isinstance(found, tree.TypeDecl):
             made = self.declaration(found)
             spec.start = self.starts.get(upper)
             return made
-        if isinstance(found, FunctionBlock):
+        if isinstance(found, tree.FunctionBlock):
             return self.block(found)
         if upper in BLOCKS:
             return BLOCKS[upper]
@@ -139,13 +118,13 @@ class Resolver:
         self.report.add(spec.at, "unknown-type", f"{what}{' ' if found else ', found '}{spec.name}{hint}")
         return UNKNOWN
 
-    def block(self, declared: FunctionBlock) -> Block:
+    def block(self, declared: tree.FunctionBlock) -> tree.Block:
         """The type of a function block; its parameters are filled when its own declarations are read."""
         if declared.type is None:
-            declared.type = Block(declared.name, Kind.BLOCK, declaration=declared)
+            declared.type = tree.Block(declared.name, Kind.BLOCK, declaration=declared)
         return declared.type
 
-    def string(self, spec: StringSpec) -> Type:
+    def string(self, spec: tree.StringSpec) -> Type:
         """STRING with or without a length."""
         base = default_string(spec.wide)
         if spec.length is None:
@@ -158,22 +137,22 @@ class Resolver:
             return base
         return String(f"{base.name}[{length}]", Kind.STRING, length, spec.wide)
 
-    def constant(self, value: Expression, what: str) -> int | None:
+    def constant(self, value: tree.Expression, what: str) -> int | None:
         """The value of a constant integer expression; reported if it is none."""
         found = fold(value, self.initial_of)
         if found is None:
             self.report.add(value.at, "type-mismatch", f"expected an integer literal for {what}")
-        elif not isinstance(value, Literal):
+        elif not isinstance(value, tree.Literal):
             text = f"expected an integer literal for {what}: matiec refuses constants and expressions here"
             self.report.add(value.at, "constant-bound", text)
         return found
 
-    def initial_of(self, name: str) -> Expression | None:
+    def initial_of(self, name: str) -> tree.Expression | None:
         """The initial value of a constant by its name."""
         variable = self.constants.get(name.upper()) or self.library.global_variables.get(name.upper())
         return variable.initial if variable and variable.constant else None
 
-    def array(self, spec: ArraySpec, name: str) -> Type:
+    def array(self, spec: tree.ArraySpec, name: str) -> Type:
         """An array; an empty or conformant range is reported."""
         element = self.spec(spec.element)
         bounds = [self.bound(each, spec.at) for each in spec.ranges]
@@ -181,13 +160,15 @@ class Resolver:
         known = tuple(each for each in bounds if each is not None)
         if len(known) < len(bounds):
             return UNKNOWN
-        made = Array(name or f"ARRAY[{shown}] OF {element.name}", Kind.ARRAY, element, known, start=spec.element.start)
+        made = tree.Array(
+            name or f"ARRAY[{shown}] OF {element.name}", Kind.ARRAY, element, known, start=spec.element.start
+        )
         if made.length > MOST_ELEMENTS:
             self.report.add(spec.at, "literal-range", f"expected at most {MOST_ELEMENTS} elements, found {made.length}")
             return UNKNOWN
         return made
 
-    def bound(self, each: Range | None, at: int) -> tuple[int, int] | None:
+    def bound(self, each: tree.Range | None, at: int) -> tuple[int, int] | None:
         """The limits of one dimension."""
         if each is None:
             text = "ARRAY[*] is not in the second edition: give the bounds"
@@ -201,27 +182,27 @@ class Resolver:
             return None
         return low, high
 
-    def struct(self, spec: StructSpec, name: str) -> Type:
+    def struct(self, spec: tree.StructSpec, name: str) -> Type:
         """A structure."""
-        made = Struct(name or "STRUCT", Kind.STRUCT)
+        made = tree.Struct(name or "STRUCT", Kind.STRUCT)
         for each in spec.fields:
             each.type = each.spec.type if each.grouped else self.spec(each.spec)
             upper = each.name.upper()
             if upper in made.fields:
                 self.report.add(each.at, "duplicate-name", f"the field {each.name} is declared twice")
-            made.fields.setdefault(upper, Field(each.name, each.type, each.start, each))
+            made.fields.setdefault(upper, tree.Field(each.name, each.type, each.start, each))
         return made
 
-    def enum(self, spec: EnumSpec, name: str) -> Type:
+    def enum(self, spec: tree.EnumSpec, name: str) -> Type:
         """An enumeration; its values become known by name everywhere."""
         base = ELEMENTARY.get((spec.base or "").upper())
-        made = Enum(name or "an enumeration", Kind.ENUM, base=base)
+        made = tree.Enum(name or "an enumeration", Kind.ENUM, base=base)
         number = 0
         for item in spec.items:
             if item.value is not None:
                 written = self.constant(item.value, "the number of an enumerated value")
                 number = number if written is None else written
-            value = EnumValue(item.name, number, made)
+            value = tree.EnumValue(item.name, number, made)
             if item.name.upper() in made.values:
                 self.report.add(item.at, "duplicate-name", f"the value {item.name} is declared twice")
             made.values.setdefault(item.name.upper(), value)
@@ -229,7 +210,7 @@ class Resolver:
             number += 1
         return made
 
-    def subrange(self, spec: SubrangeSpec, name: str) -> Type:
+    def subrange(self, spec: tree.SubrangeSpec, name: str) -> Type:
         """`INT (0..9)`."""
         low = self.constant(spec.range.low, "the limit of a subrange")
         high = self.constant(spec.range.high, "the limit of a subrange")

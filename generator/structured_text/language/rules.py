@@ -1,7 +1,5 @@
 """The names of everything that the front end can find, with stable codes. `docs/lint.md` explains each."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 

@@ -1,7 +1,5 @@
 """The standard functions and function blocks of IEC 61131-3, second edition, clauses 2.5.1.5 and 2.5.2.3."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 from structured_text.language.tree import Block, Direction, Parameter

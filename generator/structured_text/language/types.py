@@ -5,8 +5,6 @@ makes one object, and an alias (`TYPE A : INT; END_TYPE`) is the very type that 
 lengths are equal through `same`.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 from enum import Enum
 

@@ -1,36 +1,12 @@
 """Every node of a POU's statements, handed to whoever asked for its kind."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 from typing import Any
 
-from structured_text.language.tree import (
-    ArrayInitial,
-    Assign,
-    Binary,
-    BitAccess,
-    Call,
-    CallStatement,
-    Case,
-    Dereference,
-    Expression,
-    For,
-    If,
-    Index,
-    LabelRange,
-    Member,
-    Repeat,
-    RepeatUntil,
-    Return,
-    Statement,
-    StructInitial,
-    Unary,
-    While,
-)
+from structured_text.language import tree
 
 
-def statements(body: list[Statement]) -> Iterator[Statement]:
+def statements(body: list[tree.Statement]) -> Iterator[tree.Statement]:
     """Every statement, those inside others too, in source order."""
     stack = list(reversed(body))
     while stack:
@@ -40,81 +16,81 @@ def statements(body: list[Statement]) -> Iterator[Statement]:
             stack.extend(reversed(inner))
 
 
-def bodies(statement: Statement) -> list[list[Statement]]:
+def bodies(statement: tree.Statement) -> list[list[tree.Statement]]:
     """The lists of statements directly inside a statement."""
-    if isinstance(statement, If):
+    if isinstance(statement, tree.If):
         made = [branch.body for branch in statement.branches]
         return [*made, statement.otherwise] if statement.otherwise is not None else made
-    if isinstance(statement, Case):
+    if isinstance(statement, tree.Case):
         made = [branch.body for branch in statement.branches]
         return [*made, statement.otherwise] if statement.otherwise is not None else made
-    return [statement.body] if isinstance(statement, For | While | RepeatUntil) else []
+    return [statement.body] if isinstance(statement, tree.For | tree.While | tree.RepeatUntil) else []
 
 
-def heads(statement: Statement) -> list[Expression]:
+def heads(statement: tree.Statement) -> list[tree.Expression]:
     """The expressions directly in a statement, without those of the statements inside it."""
-    if isinstance(statement, Assign):
+    if isinstance(statement, tree.Assign):
         return [statement.target, statement.value]
-    if isinstance(statement, CallStatement):
+    if isinstance(statement, tree.CallStatement):
         return [statement.call]
-    if isinstance(statement, If):
+    if isinstance(statement, tree.If):
         return [branch.condition for branch in statement.branches]
-    if isinstance(statement, Case):
+    if isinstance(statement, tree.Case):
         return [statement.selector, *_labels(statement)]
     return _loop_heads(statement)
 
 
-def _labels(statement: Case) -> list[Expression]:
-    made: list[Expression] = []
+def _labels(statement: tree.Case) -> list[tree.Expression]:
+    made: list[tree.Expression] = []
     for branch in statement.branches:
         for label in branch.labels:
-            made += [label.low, label.high] if isinstance(label, LabelRange) else [label]
+            made += [label.low, label.high] if isinstance(label, tree.LabelRange) else [label]
     return made
 
 
-def _loop_heads(statement: Statement) -> list[Expression]:
-    if isinstance(statement, While | RepeatUntil):
+def _loop_heads(statement: tree.Statement) -> list[tree.Expression]:
+    if isinstance(statement, tree.While | tree.RepeatUntil):
         return [statement.condition]
-    if isinstance(statement, For):
+    if isinstance(statement, tree.For):
         made = [statement.variable, statement.start, statement.stop]
         return [*made, statement.step] if statement.step is not None else made
-    return [statement.value] if isinstance(statement, Return) and statement.value is not None else []
+    return [statement.value] if isinstance(statement, tree.Return) and statement.value is not None else []
 
 
-def children(value: Expression) -> list[Expression]:
+def children(value: tree.Expression) -> list[tree.Expression]:
     """The expressions directly inside an expression."""
     find = _CHILDREN.get(type(value))
     return find(value) if find is not None else []
 
 
-def _call(value: Call) -> list[Expression]:
+def _call(value: tree.Call) -> list[tree.Expression]:
     return [value.callee, *(each.value for each in value.arguments if each.value is not None)]
 
 
-def _repeat(value: Repeat) -> list[Expression]:
+def _repeat(value: tree.Repeat) -> list[tree.Expression]:
     return [value.count] if value.value is None else [value.count, value.value]
 
 
-def _struct(value: StructInitial) -> list[Expression]:
+def _struct(value: tree.StructInitial) -> list[tree.Expression]:
     return [each.value for each in value.items if each.value is not None]
 
 
 # By exact type, since this is asked once per expression of a file.
-_CHILDREN: dict[type[Expression], Callable[[Any], list[Expression]]] = {
-    Binary: lambda value: [value.left, value.right],
-    Unary: lambda value: [value.operand],
-    Member: lambda value: [value.base],
-    BitAccess: lambda value: [value.base],
-    Dereference: lambda value: [value.base],
-    Index: lambda value: [value.base, *value.indices],
-    Call: _call,
-    ArrayInitial: lambda value: list(value.items),
-    Repeat: _repeat,
-    StructInitial: _struct,
+_CHILDREN: dict[type[tree.Expression], Callable[[Any], list[tree.Expression]]] = {
+    tree.Binary: lambda value: [value.left, value.right],
+    tree.Unary: lambda value: [value.operand],
+    tree.Member: lambda value: [value.base],
+    tree.BitAccess: lambda value: [value.base],
+    tree.Dereference: lambda value: [value.base],
+    tree.Index: lambda value: [value.base, *value.indices],
+    tree.Call: _call,
+    tree.ArrayInitial: lambda value: list(value.items),
+    tree.Repeat: _repeat,
+    tree.StructInitial: _struct,
 }
 
 
-def expressions(value: Expression) -> Iterator[Expression]:
+def expressions(value: tree.Expression) -> Iterator[tree.Expression]:
     stack = [value]
     while stack:
         here = stack.pop()

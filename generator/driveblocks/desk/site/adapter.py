@@ -4,7 +4,6 @@ from collections.abc import Callable, Iterator
 from dataclasses import replace
 
 from rich.console import RenderableType
-from rich.progress import BarColumn, Progress, TextColumn
 
 from driveblocks import console
 from driveblocks.desk import port
@@ -96,34 +95,18 @@ class Person:
 
     def __init__(self, read: Callable[[str], str]) -> None:
         """`read` prints a text and returns a line; it raises EOFError."""
-        self._read, self._screen = read, console.terminal()
-        columns = TextColumn("{task.description}"), BarColumn()
-        hidden = not self._screen.is_terminal
-        self._bar = Progress(*columns, console=self._screen, disable=hidden, transient=True)
-        self._task = self._bar.add_task("")
-        self._runs = False
+        self._read, self._bar = read, console.Bar(console.terminal())
+        self.progress = self._bar.show
 
     def ask(self, key: str, text: str) -> str:  # noqa: ARG002  (a test answers by it)
         """A question."""
-        self._still()
+        self._bar.close()
         return self._read(f"{text} ").strip()
 
     def say(self, what: RenderableType) -> None:
         """A text or a table."""
-        self._still()
+        self._bar.close()
         console.write(what)
-
-    def progress(self, done: int, total: int, text: str) -> None:
-        """A bar while something takes its time."""
-        if not self._runs:
-            self._bar.start()
-            self._runs = True
-        self._bar.update(self._task, completed=done, total=total, description=text)
-
-    def _still(self) -> None:
-        if self._runs:
-            self._bar.stop()
-            self._runs = False
 
 
 def at(name: str | None, address: str | None, clock: Clock) -> Callable[[Way], Port]:

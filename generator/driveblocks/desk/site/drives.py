@@ -2,15 +2,13 @@
 
 import os
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import closing, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
 from rich.console import RenderableType
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn
 
 from driveblocks import console
-from driveblocks.desk import port
 from driveblocks.desk.clock import RealClock
 from driveblocks.desk.exchange import quality
 from driveblocks.desk.master import Speech
@@ -22,7 +20,7 @@ from driveblocks.desk.site.reader import LostError, One, Reader, StraysError, he
 from driveblocks.desk.site.register import Row, rows, unread, value
 from driveblocks.desk.site.saved import Saved, Word, read, write
 from driveblocks.desk.site.session import troubles
-from driveblocks.desk.words import time
+from driveblocks.desk.words import opening, time
 from driveblocks.maps import catalog
 from driveblocks.maps.collection import read as maps_of
 from driveblocks.maps.form import address_text
@@ -61,12 +59,8 @@ class Place:
     @contextmanager
     def _opened(self, clock: RealClock) -> Iterator[Port]:
         """The port, on which nobody speaks. Raises Refused."""
-        try:
+        with opening(str(self.port or self.tcp)):
             made = adapter.at(self.port, self.tcp, clock)(Way(self.rate, self.form.upper()))
-        except ImportError as error:
-            raise Refused(f"--port needs pyserial, which does not run here: {error}") from None
-        except (OSError, ValueError, OverflowError) as error:
-            raise Refused(f"{self.port or self.tcp}: {port.reason(error)}") from None
         try:
             if heard(made, clock):
                 raise Refused(f"{self.port or self.tcp}: somebody else speaks on this line; disconnect the PLC")
@@ -76,17 +70,18 @@ class Place:
 
     def take(self, one: One, found: dict[int, Word], keep: Callable[[], None], name: str = "") -> str:
         """Read a drive; `name`: the file of what was found before; how the line was. Raises Refused, LostError."""
-        clock, screen = RealClock(), console.terminal()
-        columns = TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn()
+        clock, bar, total = RealClock(), console.Bar(console.terminal()), len(rows(one.drive))
         speech = Speech("ascii" if self.ascii else "rtu", 1_000_000 * character(self.form).bits / self.rate)
-        bars = Progress(*columns, console=screen, disable=not screen.is_terminal, transient=True)
-        with self._opened(clock) as opened, bars as bar:
-            task = bar.add_task(one.name, total=len(rows(one.drive)), completed=len(found))
 
-            def kept() -> None:
-                keep()
-                bar.update(task, completed=len(found), description=one.name)
+        def shown(why: str = "") -> None:
+            bar.show(len(found), total, f"{one.name}: {why}" if why else one.name)
 
+        def kept() -> None:
+            keep()
+            shown()
+
+        with self._opened(clock) as opened, closing(bar):
+            shown()
             reader = Reader(opened, clock, one, speech, time("--patience", self.patience, 0, HIGHEST_PATIENCE_US))
             others = {each.path.stem: each.drive for each in maps_of(catalog.chosen(())) if each.path.stem != one.stem}
             if why := reader.stranger(others):
@@ -94,7 +89,7 @@ class Place:
             if why := reader.changed(found):
                 raise Refused(f"{name} is of another drive, or it was changed since: {why}; name another file")
             try:
-                reader.read(found, kept, lambda why: bar.update(task, description=f"{one.name}: {why}"))
+                reader.read(found, kept, shown)
             except StraysError as strays:
                 raise StraysError(f"{strays}\n{_line(reader)}") from strays
         return _line(reader)

@@ -3,31 +3,18 @@
 from driveblocks.platforms.part import Part
 from driveblocks.platforms.siemens.names import Names
 from driveblocks.platforms.siemens.words import ELEMENTARY, FORMAL, RESERVED, UNNAMED, converts
-from structured_text.language import walk
+from structured_text.language import tree, walk
 from structured_text.language.lexer import tokenize
-from structured_text.language.tree import (
-    Assign,
-    Binary,
-    Call,
-    Expression,
-    Function,
-    FunctionBlock,
-    Index,
-    Literal,
-    LiteralKind,
-    Member,
-    Name,
-    NamedSpec,
-    Pou,
-    Return,
-    Statement,
-    Unary,
-    VarBlock,
-    VarDecl,
-    VarKind,
-)
 
-_LITERALS = frozenset({LiteralKind.BOOL, LiteralKind.INTEGER, LiteralKind.REAL, LiteralKind.STRING, LiteralKind.TIME})
+_LITERALS = frozenset(
+    {
+        tree.LiteralKind.BOOL,
+        tree.LiteralKind.INTEGER,
+        tree.LiteralKind.REAL,
+        tree.LiteralKind.STRING,
+        tree.LiteralKind.TIME,
+    }
+)
 
 
 def body(part: Part, names: Names) -> str:
@@ -40,10 +27,10 @@ class _Body:
 
     def __init__(self, part: Part, names: Names) -> None:
         pou = part.element
-        assert isinstance(pou, Pou)  # noqa: S101  (a type has no body)
+        assert isinstance(pou, tree.Pou)  # noqa: S101  (a type has no body)
         self.part, self.names, self.pou = part, names, pou
         self.variables = {one.name.upper(): one for block in pou.blocks for one in block.variables}
-        self.result = pou.name.upper() if isinstance(pou, Function) else ""
+        self.result = pou.name.upper() if isinstance(pou, tree.Function) else ""
         self.puts: dict[int, str] = {}
         self.bare: set[int] = set()
 
@@ -85,45 +72,45 @@ class _Body:
         """Put a text before an offset, after what was put there already."""
         self.puts[at] = self.puts.get(at, "") + text
 
-    def statement(self, statement: Statement) -> None:
+    def statement(self, statement: tree.Statement) -> None:
         """The expressions of a statement, not of those inside it."""
-        if (isinstance(statement, Assign) and statement.op != ":=") or (
-            isinstance(statement, Return) and statement.value is not None
+        if (isinstance(statement, tree.Assign) and statement.op != ":=") or (
+            isinstance(statement, tree.Return) and statement.value is not None
         ):
             self.refuse(statement.at, "SCL has no such statement")
         for value in walk.heads(statement):
             self.expression(value)
 
-    def expression(self, value: Expression) -> None:
+    def expression(self, value: tree.Expression) -> None:
         """A name gets its `#`, a function its quotes; operators and literals are alike."""
-        if isinstance(value, Name):
+        if isinstance(value, tree.Name):
             self.name(value)
-        elif isinstance(value, Call):
+        elif isinstance(value, tree.Call):
             self.call(value)
-        elif isinstance(value, Literal):
+        elif isinstance(value, tree.Literal):
             self.literal(value)
-        elif isinstance(value, Member | Index | Unary | Binary):
+        elif isinstance(value, tree.Member | tree.Index | tree.Unary | tree.Binary):
             for each in walk.children(value):
                 self.expression(each)
         else:
             self.refuse(value.at, "SCL has no such expression, or means something else by it")
 
-    def name(self, value: Name) -> None:
+    def name(self, value: tree.Name) -> None:
         """A variable of this block, or the result of this function."""
         if value.name.upper() not in self.variables and value.name.upper() != self.result:
             self.refuse(value.at, f"{value.name} is not declared in this block; SCL has no other names here")
         self.put(value.at, "#")
 
-    def literal(self, value: Literal) -> None:
+    def literal(self, value: tree.Literal) -> None:
         """Literals look alike as far as an S7-1200 has their type."""
         known = value.prefix in (None, "T", "TIME", "STRING") or value.prefix in ELEMENTARY
         if value.kind not in _LITERALS or not known:
             self.refuse(value.at, f"{value.text}: SCL has no such literal on an S7-1200")
 
-    def call(self, call: Call) -> None:
+    def call(self, call: tree.Call) -> None:
         """A call of an instance, a function of the library, or a standard function."""
         callee = call.callee
-        if not isinstance(callee, Name):
+        if not isinstance(callee, tree.Name):
             self.expression(callee)
         elif callee.name.upper() in self.variables:
             self.name(callee)
@@ -138,20 +125,20 @@ class _Body:
             if argument.value is not None:
                 self.expression(argument.value)
 
-    def inputs(self, call: Call, found: Part) -> None:
+    def inputs(self, call: tree.Call, found: Part) -> None:
         """A function of SCL has no defaults: each input is in the call, by its name."""
-        wanted = _parameters(found, VarKind.INPUT) | _parameters(found, VarKind.IN_OUT)
+        wanted = _parameters(found, tree.VarKind.INPUT) | _parameters(found, tree.VarKind.IN_OUT)
         self.given(call, found.name, wanted)
 
-    def in_outs(self, call: Call, instance: VarDecl) -> None:
+    def in_outs(self, call: tree.Call, instance: tree.VarDecl) -> None:
         """An in-out is a reference, so that each call names it."""
-        found = self.names.find(instance.spec.name) if isinstance(instance.spec, NamedSpec) else None
+        found = self.names.find(instance.spec.name) if isinstance(instance.spec, tree.NamedSpec) else None
         if found is None:
             self.bare |= {argument.at for argument in call.arguments}
-        elif isinstance(found.element, FunctionBlock):
-            self.given(call, instance.name, _parameters(found, VarKind.IN_OUT))
+        elif isinstance(found.element, tree.FunctionBlock):
+            self.given(call, instance.name, _parameters(found, tree.VarKind.IN_OUT))
 
-    def given(self, call: Call, name: str, wanted: dict[str, str]) -> None:
+    def given(self, call: tree.Call, name: str, wanted: dict[str, str]) -> None:
         """Refuse a call by position, or one that omits what SCL wants."""
         named = {argument.name.upper() for argument in call.arguments if argument.name and argument.value}
         if any(argument.name is None for argument in call.arguments):
@@ -159,7 +146,7 @@ class _Body:
         for missing in wanted.keys() - named:
             self.refuse(call.at, f"{name}: expected {wanted[missing]} := ..., since SCL has no default for it")
 
-    def standard(self, call: Call, name: str) -> None:
+    def standard(self, call: tree.Call, name: str) -> None:
         """SCL wants the parameters of a standard function named, unless there is but one."""
         if name in UNNAMED or converts(name):
             return
@@ -171,24 +158,24 @@ class _Body:
                 self.put(argument.at, f"{formal} := ")
 
 
-def _parameters(part: Part, kind: VarKind) -> dict[str, str]:
-    blocks: list[VarBlock] = part.element.blocks if isinstance(part.element, Pou) else []
+def _parameters(part: Part, kind: tree.VarKind) -> dict[str, str]:
+    blocks: list[tree.VarBlock] = part.element.blocks if isinstance(part.element, tree.Pou) else []
     return {one.name.upper(): one.name for block in blocks if block.kind is kind for one in block.variables}
 
 
-def _settles(statements: list[Statement], name: str) -> bool:
+def _settles(statements: list[tree.Statement], name: str) -> bool:
     """Whether every path through statements gives a value to a function's result."""
     for each in statements:
         if _sets(each, name):
             return True
-        if any(isinstance(inner, Return) for inner in walk.statements([each])):
+        if any(isinstance(inner, tree.Return) for inner in walk.statements([each])):
             return False
     return False
 
 
-def _sets(statement: Statement, name: str) -> bool:
-    if isinstance(statement, Assign):
-        return isinstance(statement.target, Name) and statement.target.name.upper() == name
+def _sets(statement: tree.Statement, name: str) -> bool:
+    if isinstance(statement, tree.Assign):
+        return isinstance(statement.target, tree.Name) and statement.target.name.upper() == name
     inner = walk.bodies(statement)
     branched = getattr(statement, "otherwise", None) is not None
     return branched and all(_settles(each, name) for each in inner)

@@ -4,8 +4,6 @@ A function becomes a Python function of its inputs and in-outs. If it has output
 returns a tuple: the result, then these, and the call stores them.
 """
 
-from __future__ import annotations
-
 import ast
 
 from structured_text.engines.embedded.functions import builtin

@@ -1,7 +1,5 @@
 """What the checker of the front end has made sure, said to the type checker of Python."""
 
-from __future__ import annotations
-
 from typing import TypeVar
 
 Known = TypeVar("Known")

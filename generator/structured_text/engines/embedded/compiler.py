@@ -1,22 +1,19 @@
 """From checked sources to Python functions and classes: one function per POU, one class per block and structure."""
 
-from __future__ import annotations
-
 import ast
 from collections.abc import Callable
 from typing import Any
 
-from structured_text.engines.embedded import standard_blocks
-from structured_text.engines.embedded.calls import function_name
+from structured_text.engines.embedded import operands, operators, standard_blocks
+from structured_text.engines.embedded.calls import call_term, function_name
 from structured_text.engines.embedded.certainty import present
-from structured_text.engines.embedded.expressions import TERMS
 from structured_text.engines.embedded.faults import Accesses
 from structured_text.engines.embedded.invocation import body_name
 from structured_text.engines.embedded.parts import body_of, stored
 from structured_text.engines.embedded.ranges import Ranges
 from structured_text.engines.embedded.reals import single
 from structured_text.engines.embedded.runtime import namespace
-from structured_text.engines.embedded.scope import GLOBALS, SELF, Scope, UnsupportedError
+from structured_text.engines.embedded.scope import GLOBALS, SELF, Scope, Terms, UnsupportedError
 from structured_text.engines.embedded.shapes import Maker, Record, Shapes, is_scalar, record_class
 from structured_text.engines.embedded.standard_blocks import Run
 from structured_text.engines.embedded.statements import STATEMENTS, returned_value
@@ -27,6 +24,13 @@ from structured_text.engines.engine import Message
 from structured_text.language import tree
 from structured_text.language.tree import Block, Checked, EnumValue, VarKind
 from structured_text.language.types import REAL, Kind, String, Type, plain
+
+TERMS: Terms = {
+    tree.Literal: operands.literal, tree.Name: operands.name, tree.Qualified: operands.enumerated,
+    tree.Member: operands.member, tree.Index: operands.index, tree.Unary: operators.unary,
+    tree.Binary: operators.binary, tree.Call: call_term,
+}  # fmt: skip
+
 
 Body = Callable[[Any], None]
 

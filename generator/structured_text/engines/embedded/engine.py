@@ -1,7 +1,5 @@
 """The embedded engine: ST compiled to Python in this process, with no tool but Python."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 from structured_text.engines.embedded.compiler import Compiler

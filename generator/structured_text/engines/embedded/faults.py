@@ -1,7 +1,5 @@
 """Where a scan went wrong: from a Python exception in compiled ST to a ScanError with line and column."""
 
-from __future__ import annotations
-
 import ast
 import copy
 from collections.abc import Iterator

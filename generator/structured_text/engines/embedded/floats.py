@@ -4,8 +4,6 @@ A REAL literal without prefix is a double in C, and so is every operation on it 
 are built differently, both are computed and compared, if that is asked for.
 """
 
-from __future__ import annotations
-
 import ast
 
 from structured_text.engines.embedded.reals import single

@@ -3,8 +3,6 @@
 Arguments are cut and rounded to the types of their parameters first: C casts them.
 """
 
-from __future__ import annotations
-
 import ast
 from collections.abc import Callable
 from itertools import pairwise

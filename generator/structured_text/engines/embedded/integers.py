@@ -1,7 +1,5 @@
 """Integers and bit strings at run time: what wraps, what fails, and division as ST and C have it."""
 
-from __future__ import annotations
-
 from structured_text.engines.embedded.faults import FaultError
 from structured_text.engines.embedded.terms import CInteger
 

@@ -4,8 +4,6 @@
 falls into `else`, which raises. All loops of a scan share one iterator.
 """
 
-from __future__ import annotations
-
 import ast
 from collections.abc import Callable
 

@@ -1,7 +1,5 @@
 """Operators of ST as Python expressions."""
 
-from __future__ import annotations
-
 import ast
 
 from structured_text.engines.embedded.certainty import known

@@ -1,7 +1,5 @@
 """The parts of a statement or expression, compiled: what the functions of the compiler ask of each other."""
 
-from __future__ import annotations
-
 import ast
 from functools import partial
 

@@ -1,7 +1,5 @@
 """Paths such as `Inner.Buffer[3].Crc`, and the state of an instance as a table of them."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass

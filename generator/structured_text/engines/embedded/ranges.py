@@ -4,8 +4,6 @@ An interval per variable, narrowed by conditions and assignments, joined where w
 and checks unnecessary, for `i` in `WHILE i < n` cannot overflow its type by `i := i + 1`.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 
@@ -36,7 +34,7 @@ class Ranges:
     known: dict[tree.VarDecl, Interval] = field(default_factory=dict)
     dead: bool = False
 
-    def copy(self) -> Ranges:
+    def copy(self) -> "Ranges":
         """An independent copy."""
         return Ranges(dict(self.known), self.dead)
 
@@ -53,11 +51,11 @@ class Ranges:
         for each in variables:
             self.known.pop(each, None)
 
-    def become(self, other: Ranges) -> None:
+    def become(self, other: "Ranges") -> None:
         """Take over another state."""
         self.known, self.dead = dict(other.known), other.dead
 
-    def join(self, other: Ranges) -> None:
+    def join(self, other: "Ranges") -> None:
         """Meet another way through the body."""
         if other.dead:
             return
@@ -71,7 +69,7 @@ class Ranges:
             (low, high), (low2, high2) = self.known[each], other.known[each]
             self.known[each] = min(low, low2), max(high, high2)
 
-    def widen(self, after: Ranges, variables: Iterable[tree.VarDecl]) -> bool:
+    def widen(self, after: "Ranges", variables: Iterable[tree.VarDecl]) -> bool:
         """Give up the bounds that a turn of a loop has moved. Return whether there were any."""
         moved = False
         for each in variables:

@@ -4,8 +4,6 @@ C's conversions are those of x86-64, where a value that does not fit gives the "
 1, 4.8.2 and the entries of CVTTSS2SI and CVTTSD2SI): the most negative number of the register, cut to the target.
 """
 
-from __future__ import annotations
-
 import ctypes
 import math
 import sys
@@ -13,7 +11,7 @@ from collections.abc import Callable
 
 from structured_text.engines.embedded.faults import FaultError
 
-_CELL: memoryview[float] = memoryview(bytearray(4)).cast("f")
+_CELL: "memoryview[float]" = memoryview(bytearray(4)).cast("f")
 _INDEFINITE_32 = -(1 << 31)
 _INDEFINITE_64 = -(1 << 63)
 # What x86-64 makes of an invalid operation: a NaN with its sign set.
@@ -22,7 +20,7 @@ _INDEFINITE_64 = -(1 << 63)
 EXACT_SINGLE = 1 << 24
 
 
-def _single_by_cell(number: float, cell: memoryview[float] = _CELL) -> float:
+def _single_by_cell(number: float, cell: "memoryview[float]" = _CELL) -> float:
     """Round to the nearest single, ties to even, infinity beyond the range. No thread switch can fall in between."""
     cell[0] = number
     return cell[0]

@@ -3,8 +3,6 @@
 Where the standard and C after matiec differ, a function raises FaultError rather than choose.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from typing import Any

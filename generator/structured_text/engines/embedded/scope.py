@@ -1,7 +1,5 @@
 """The one thing that all parts of the compiler share while they work on one POU."""
 
-from __future__ import annotations
-
 import ast
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field

@@ -5,8 +5,6 @@ dimension), a structure or instance an object with one slot per field. Arrays an
 life: assignments copy into them, so that references to them (in-outs) stay valid.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Values as STRING and back: literals of the standard, or what matiec writes and reads (`c_`)."""
 
-from __future__ import annotations
-
 from structured_text.engines.embedded.faults import FaultError
 from structured_text.engines.embedded.integers import wrap
 

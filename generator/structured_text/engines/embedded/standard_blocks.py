@@ -3,8 +3,6 @@
 Where the standard and matiec disagree, a block raises FaultError.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Statements of ST as Python statements."""
 
-from __future__ import annotations
-
 import ast
 from dataclasses import dataclass
 from itertools import chain, repeat

@@ -1,7 +1,5 @@
 """Stores and copies of values."""
 
-from __future__ import annotations
-
 import ast
 
 from structured_text.engines.embedded.certainty import known

@@ -4,8 +4,6 @@ The standard makes it an error to count below zero, to name a character that is 
 longer than the maximum (IEC 61131-3 2.5.1.5.5).
 """
 
-from __future__ import annotations
-
 from structured_text.engines.embedded.faults import FaultError
 from structured_text.language.types import DEFAULT_STRING_LENGTH
 

@@ -5,8 +5,6 @@ that tracebacks, `sys.settrace` and coverage tools see ST lines, and a fault is 
 scan that has none.
 """
 
-from __future__ import annotations
-
 import ast
 from typing import Any
 

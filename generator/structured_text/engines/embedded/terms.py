@@ -5,8 +5,6 @@ at once, since the value modulo the operand's width stays right. Only where the 
 division, an index, a store) is it wrapped, checked, or, if its interval proves that it fits, left alone.
 """
 
-from __future__ import annotations
-
 import ast
 from dataclasses import dataclass
 from typing import Literal, NamedTuple

@@ -4,8 +4,6 @@ matiec's is a pair (seconds, nanoseconds) whose operations do not always normali
 compare unequal: every operation is done in both, and fails where the pair comes out otherwise.
 """
 
-from __future__ import annotations
-
 import math
 from fractions import Fraction
 from typing import NamedTuple

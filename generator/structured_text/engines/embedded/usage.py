@@ -1,7 +1,5 @@
 """Which variables a piece of ST reads and writes."""
 
-from __future__ import annotations
-
 import dataclasses
 from collections.abc import Iterator
 

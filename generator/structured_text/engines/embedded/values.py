@@ -3,8 +3,6 @@
 Inside, a structure is an object; outside it is a dict (see `host.engine`).
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 from structured_text.engines.embedded.certainty import known

@@ -1,7 +1,5 @@
 """Where the exact value of an integer matters: wrapped, checked or left alone, whatever exceeds its type fails."""
 
-from __future__ import annotations
-
 import ast
 from collections.abc import Callable
 

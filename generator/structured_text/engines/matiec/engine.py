@@ -9,13 +9,12 @@ from pathlib import Path
 
 from structured_text.engines.engine import EngineError, Message, Source
 from structured_text.engines.matiec import runtime
-from structured_text.engines.matiec.binary import Binary, Built
+from structured_text.engines.matiec.binary import Binary, Built, load_guard
 from structured_text.engines.matiec.c_lines import LineTable, counted, directives, take_lines
 from structured_text.engines.matiec.cache import Cache, cache_folder
 from structured_text.engines.matiec.ccompiler import CCompiler, Flags, Job
 from structured_text.engines.matiec.counters import Counters
-from structured_text.engines.matiec.declarations import Declarations, Unit, read_declarations
-from structured_text.engines.matiec.guard import load_guard
+from structured_text.engines.matiec.declarations import Declarations, read_declarations
 from structured_text.engines.matiec.header import (
     Block,
     ConfigurationC,
@@ -88,15 +87,15 @@ class MatiecEngine:
         c_sources = _CSources.read(folder, self.installation, listing)
         expressions = Expressions()
         planner = c_sources.plan(expressions)
-        configuration = c_sources.configuration
         functions = c_sources.header.functions.values()
-        text = runtime.unit(planner.plan.blocks, functions, expressions.found, configuration, read_locations(folder))
+        outside = (c_sources.configuration, read_locations(folder))
+        text = runtime.unit(planner.plan.blocks, functions, expressions.found, *outside)
         put(folder / EXPRESSIONS, json.dumps(list(expressions.found)), sync=False)
         lines, counters = self._move_pous(folder, listing, c_sources.declared)
         if counters is not None:
             text = f"#define DBK_COVERAGE {max(len(counters.lines), 1)}\n{text}"
         put(folder / runtime.UNIT, text, sync=False)
-        files = [runtime.UNIT, *(configuration.files if configuration else ())]
+        files = [runtime.UNIT, *c_sources.configuration.files]
         return self.compiler.compile(Job(folder, files, LIBRARY, self.installation.headers, self.flags, listing, lines))
 
     def _move_pous(self, folder: Path, listing: Listing, declared: Declarations) -> tuple[LineTable, Counters | None]:
@@ -122,7 +121,7 @@ class MatiecEngine:
         places = {name: listing.place(unit.line) for name, unit in c_sources.declared.units.items()}
         moved = data(folder / runtime.POUS_MOVED).decode()
         counters = Counters(listing, counted(moved)) if self.flags.coverage else None
-        return Built(folder, binary, plan, c_sources.declared, c_sources.configuration, warnings, places, counters)
+        return Built(folder, binary, plan, c_sources.declared, warnings, places, counters)
 
 
 @dataclass(frozen=True)
@@ -131,7 +130,7 @@ class _CSources:
 
     header: Header
     installation: Installation
-    configuration: ConfigurationC | None
+    configuration: ConfigurationC
     declared: Declarations
 
     @classmethod
@@ -146,9 +145,6 @@ class _CSources:
         """Plan all nodes with sizes from `measure`."""
         planner = Planner(self.header, self._standard, self.declared, measure)
         planner.blocks()
-        if self.configuration is not None:
-            unit = self.declared.units.get(self.configuration.name, Unit("CONFIGURATION", ""))
-            planner.globals(self.configuration.globals, unit)
         return planner
 
     def _standard(self) -> dict[str, Block]:

@@ -165,54 +165,23 @@ def read_standard_blocks(folder: Path) -> dict[str, Block]:
 
 
 @dataclass(frozen=True)
-class Global:
-    """A global variable: its owner (configuration or resource), its C type and how it is held."""
-
-    owner: str
-    name: str
-    type: str
-    storage: Storage
-
-
-@dataclass
 class ConfigurationC:
-    """What `<Configuration>.c` and `<Resource>.c` hold; programs as (resource, name, type)."""
+    """What iec2c wrote of a CONFIGURATION and its resources: files, and the C type of each global by its name."""
 
-    name: str
-    files: list[str]
-    globals: list[Global] = field(default_factory=list)
-    resources: list[str] = field(default_factory=list)
-    programs: list[tuple[str, str, str]] = field(default_factory=list)
+    files: tuple[str, ...]
+    globals: dict[str, str]
 
 
-_GLOBAL = re.compile(r"^__DECLARE_(GLOBAL|GLOBAL_FB|GLOBAL_LOCATED)\((\w+),(\w+),(\w+)\)", re.MULTILINE)
-_GLOBAL_STORAGE = {"GLOBAL": Storage.VALUE, "GLOBAL_FB": Storage.BLOCK, "GLOBAL_LOCATED": Storage.LOCATED}
-_PROGRAM = re.compile(r"^(\w+) (\w+)__(\w+);\n#define \3 \2__\3$", re.MULTILINE)
+_CONFIGURATION = re.compile(r"^// (?:CONFIGURATION|RESOURCE) ", re.MULTILINE)
+_GLOBAL = re.compile(r"^__DECLARE_GLOBAL(?:_FB|_LOCATED)?\((\w+),\w+,(\w+)\)", re.MULTILINE)
 _LOCATION = re.compile(r"__LOCATED_VAR\((\w+),(\w+),")
 
 
-def read_configuration(folder: Path) -> ConfigurationC | None:
-    """Read the files of the CONFIGURATION, if iec2c wrote any. Raises OSError."""
+def read_configuration(folder: Path) -> ConfigurationC:
+    """Read the files of the CONFIGURATION; none where the sources have none. Raises OSError."""
     texts = {file.name: data(file).decode(errors="replace") for file in sorted(folder.glob("*.c"))}
-    main = next((name for name, text in texts.items() if "\n// CONFIGURATION " in text), None)
-    if main is None:
-        return None
-    match = re.search(r"^// CONFIGURATION (\w+)$", texts[main], re.MULTILINE)
-    configuration = ConfigurationC(match[1] if match else Path(main).stem.upper(), [main])
-    _add_globals(configuration, texts[main])
-    for resource in re.findall(r"^  (\w+)_init__\(\);$", texts[main], re.MULTILINE):
-        name = next((name for name, text in texts.items() if f"\n// RESOURCE {resource}\n" in text), None)
-        if name is not None:
-            configuration.files.append(name)
-            configuration.resources.append(resource)
-            _add_globals(configuration, texts[name])
-            configuration.programs += [(owner, each, type_) for type_, owner, each in _PROGRAM.findall(texts[name])]
-    return configuration
-
-
-def _add_globals(configuration: ConfigurationC, text: str) -> None:
-    for kind, type_name, owner, name in _GLOBAL.findall(text):
-        configuration.globals.append(Global(owner, name, type_name, _GLOBAL_STORAGE[kind]))
+    own = {name: text for name, text in texts.items() if _CONFIGURATION.search(text)}
+    return ConfigurationC(tuple(own), {name: kind for text in own.values() for kind, name in _GLOBAL.findall(text)})
 
 
 def read_locations(folder: Path) -> dict[str, str]:

@@ -15,7 +15,6 @@ from structured_text.engines.matiec.header import (
     Block,
     EnumType,
     Function,
-    Global,
     Header,
     Member,
     Storage,
@@ -63,11 +62,10 @@ class Expressions:
 
 @dataclass
 class Plan:
-    """All nodes: blocks (those of the sources and the standard ones inside them), functions, globals."""
+    """All nodes: blocks (those of the sources and the standard ones inside them) and functions."""
 
     blocks: dict[str, RecordNode] = field(default_factory=dict)
     functions: dict[str, "Signature"] = field(default_factory=dict)
-    globals: dict[tuple[str, str], Node] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -103,13 +101,6 @@ class Planner:
                 raise EngineError(f"the C of iec2c has a variable of type {name}, which is not known")
             self.plan.blocks[name] = self._record_of_block(block)
         return self.plan.blocks[name]
-
-    def globals(self, variables: list[Global], unit: Unit) -> None:
-        """Plan the globals of a CONFIGURATION and its resources."""
-        for each in variables:
-            declared = unit.variables.get(each.name)
-            spec = declared.spec if declared else None
-            self.plan.globals[each.owner, each.name] = self._held(each.type, each.storage, spec)
 
     def node(self, type_name: str, spec: Spec | None) -> Node:
         spec = self.declared.resolve(spec)

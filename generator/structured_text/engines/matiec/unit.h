@@ -1,4 +1,4 @@
-/* What the C of iec2c needs around it: a clock, and a way in to each block, function and configuration.
+/* What the C of iec2c needs around it: a clock, and a way in to each block and function.
  * The unit that includes this has included iec_std_lib.h before; POUS.c follows after. */
 
 TIME __CURRENT_TIME;
@@ -59,24 +59,3 @@ static int64_t dbk_run(void (*body)(void *), void *data, int64_t now, int64_t st
         *(RESULT *)cells[0] = NAME(__VA_ARGS__);                                                          \
     }                                                                                                     \
     int64_t dbk_call_##NAME(void **cells) { return dbk_run(dbk_body_##NAME, cells, 0, 0, 1); }
-
-/* A whole CONFIGURATION, whose variables are static. */
-#define DBK_CONFIGURATION                                                                         \
-    extern void config_init__(void);                                                              \
-    extern void config_run__(unsigned long tick);                                                 \
-    extern unsigned long long common_ticktime__;                                                  \
-    extern unsigned long greatest_tick_count__;                                                   \
-    static unsigned long dbk_tick;                                                                \
-    static void dbk_body_config(void *data)                                                       \
-    {                                                                                             \
-        (void)data;                                                                               \
-        config_run__(dbk_tick++);                                                                 \
-        if (greatest_tick_count__)                                                                \
-            dbk_tick %= greatest_tick_count__;                                                    \
-    }                                                                                             \
-    int64_t dbk_config_tick(void) { return (int64_t)common_ticktime__; }                          \
-    void dbk_config_init(void) { config_init__(); }                                               \
-    int64_t dbk_config_run(int64_t now, int64_t count)                                            \
-    {                                                                                             \
-        return dbk_run(dbk_body_config, NULL, now, (int64_t)common_ticktime__, count);          \
-    }

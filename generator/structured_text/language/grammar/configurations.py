@@ -1,7 +1,5 @@
 """CONFIGURATION, RESOURCE, TASK and program instances: tokens -> tree (annex B.1.7)."""
 
-from __future__ import annotations
-
 from structured_text.language.grammar.cursor import Cursor, SyntaxProblem
 from structured_text.language.grammar.declarations import VAR_KINDS, var_block
 from structured_text.language.grammar.expressions import arguments

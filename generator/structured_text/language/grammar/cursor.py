@@ -1,7 +1,5 @@
 """A place in a list of tokens, with the errors and comments that belong there."""
 
-from __future__ import annotations
-
 from typing import NoReturn
 
 from structured_text.language.lexer import END, MOST_PROBLEMS, Tokens

@@ -1,37 +1,19 @@
 """Type specifications and variable declarations: tokens -> tree (annex B.1.3, B.1.4)."""
 
-from __future__ import annotations
-
+from structured_text.language import tree
 from structured_text.language.grammar.cursor import Cursor, SyntaxProblem
 from structured_text.language.grammar.expressions import expression
 from structured_text.language.grammar.initial_values import initial_value
 from structured_text.language.lexer import END
-from structured_text.language.tree import (
-    ArraySpec,
-    EnumItem,
-    EnumSpec,
-    Expression,
-    NamedSpec,
-    PointerSpec,
-    Range,
-    Spec,
-    StringSpec,
-    StructSpec,
-    SubrangeSpec,
-    TypeDecl,
-    VarBlock,
-    VarDecl,
-    VarKind,
-)
 
-VAR_KINDS = {kind.value: kind for kind in VarKind if kind.value.startswith("VAR")}
+VAR_KINDS = {kind.value: kind for kind in tree.VarKind if kind.value.startswith("VAR")}
 QUALIFIERS = frozenset(["CONSTANT", "RETAIN", "NON_RETAIN", "PERSISTENT", "PUBLIC", "PRIVATE", "PROTECTED", "INTERNAL"])
 _POINTERS = {"POINTER": True, "REFERENCE": True, "REF_TO": False}
 _SYNC = frozenset([";", "END_VAR", "END_STRUCT", "END_TYPE", "TYPE", "FUNCTION", "FUNCTION_BLOCK", "PROGRAM", END])
 _SYNC |= {"END_FUNCTION", "END_FUNCTION_BLOCK", "END_PROGRAM", "CONFIGURATION", "END_CONFIGURATION"} | set(VAR_KINDS)
 
 
-def var_block(cursor: Cursor) -> VarBlock:
+def var_block(cursor: Cursor) -> tree.VarBlock:
     """`VAR_INPUT ... END_VAR`. Never raises SyntaxProblem."""
     leading, at = cursor.leading(), cursor.ats[cursor.i]
     kind = VAR_KINDS[cursor.kinds[cursor.i]]
@@ -40,7 +22,7 @@ def var_block(cursor: Cursor) -> VarBlock:
     while cursor.texts[cursor.i].upper() in QUALIFIERS and cursor.kinds[cursor.i + 1] not in (":", ","):
         words.append(cursor.texts[cursor.i].upper())
         cursor.i += 1
-    block = VarBlock(at, 0, kind, tuple(words), [])
+    block = tree.VarBlock(at, 0, kind, tuple(words), [])
     block.leading = leading
     _declarations(cursor, block.variables, kind, block.qualifiers, "END_VAR")
     block.end = cursor.end_of_last()
@@ -49,7 +31,9 @@ def var_block(cursor: Cursor) -> VarBlock:
     return block
 
 
-def _declarations(cursor: Cursor, into: list[VarDecl], kind: VarKind, words: tuple[str, ...], close: str) -> None:
+def _declarations(
+    cursor: Cursor, into: list[tree.VarDecl], kind: tree.VarKind, words: tuple[str, ...], close: str
+) -> None:
     """Declarations up to the closing word, and that word. Never raises SyntaxProblem."""
     while cursor.kinds[cursor.i] != close:
         start = cursor.i
@@ -73,7 +57,7 @@ def _skip_declaration(cursor: Cursor, start: int, close: str) -> bool:
     return True
 
 
-def _declaration(cursor: Cursor, into: list[VarDecl], kind: VarKind, words: tuple[str, ...]) -> None:
+def _declaration(cursor: Cursor, into: list[tree.VarDecl], kind: tree.VarKind, words: tuple[str, ...]) -> None:
     """`a, b AT %IX0.0 : INT := 1;` Raises SyntaxProblem."""
     leading = cursor.leading() if cursor.i in cursor.before else ()
     first = len(into)
@@ -91,16 +75,16 @@ def _declaration(cursor: Cursor, into: list[VarDecl], kind: VarKind, words: tupl
     trailing = cursor.trailing() if cursor.i in cursor.before else None
     constant, retain = "CONSTANT" in words, "RETAIN" in words
     for at, name, address in names:
-        made = VarDecl(at, end, name, kind, spec, initial, address, constant, retain, edge, len(into) > first)
+        made = tree.VarDecl(at, end, name, kind, spec, initial, address, constant, retain, edge, len(into) > first)
         made.trailing = trailing
         into.append(made)
     into[first].leading = leading
 
 
-def _declared_name(cursor: Cursor, kind: VarKind) -> tuple[int, str, str | None]:
+def _declared_name(cursor: Cursor, kind: tree.VarKind) -> tuple[int, str, str | None]:
     """Where, the name, and the address after AT; a dotted path in VAR_CONFIG and VAR_ACCESS."""
     at = cursor.ats[cursor.i]
-    if kind in (VarKind.CONFIG, VarKind.ACCESS) or cursor.kinds[cursor.i] == "direct":
+    if kind in (tree.VarKind.CONFIG, tree.VarKind.ACCESS) or cursor.kinds[cursor.i] == "direct":
         return at, path(cursor), _address(cursor)
     if cursor.kinds[cursor.i] == "AT":
         return at, "", _address(cursor)
@@ -132,12 +116,12 @@ def _edge(cursor: Cursor) -> str:
     return next((each for each in ("R_EDGE", "F_EDGE") if cursor.word(each)), "")
 
 
-def _optional_value(cursor: Cursor) -> Expression | None:
+def _optional_value(cursor: Cursor) -> tree.Expression | None:
     """`:= value`, if there is one."""
     return initial_value(cursor) if cursor.accept(":=") else None
 
 
-def specification(cursor: Cursor) -> Spec:
+def specification(cursor: Cursor) -> tree.Spec:
     """What follows the colon. Raises SyntaxProblem."""
     kind, at = cursor.kinds[cursor.i], cursor.ats[cursor.i]
     if kind == "ARRAY":
@@ -153,10 +137,10 @@ def specification(cursor: Cursor) -> Spec:
         return _pointer_spec(cursor, at, name.upper())
     while cursor.accept("."):
         name += "." + cursor.name("a type")
-    return _bracketed_spec(cursor, at, name) if cursor.kinds[cursor.i] == "(" else NamedSpec(at, name)
+    return _bracketed_spec(cursor, at, name) if cursor.kinds[cursor.i] == "(" else tree.NamedSpec(at, name)
 
 
-def _bracketed_spec(cursor: Cursor, at: int, name: str) -> Spec:
+def _bracketed_spec(cursor: Cursor, at: int, name: str) -> tree.Spec:
     """`INT (0..9)` or `INT (A, B)`, after the name."""
     if cursor.kinds[cursor.i + 1] == "name" and cursor.kinds[cursor.i + 2] in (",", ")", ":="):
         made = _enum_spec(cursor, name)
@@ -168,32 +152,32 @@ def _bracketed_spec(cursor: Cursor, at: int, name: str) -> Spec:
     cursor.expect("..")
     high = expression(cursor)
     cursor.expect(")")
-    return SubrangeSpec(at, name, Range(here, low, high))
+    return tree.SubrangeSpec(at, name, tree.Range(here, low, high))
 
 
-def _pointer_spec(cursor: Cursor, at: int, word: str) -> Spec:
+def _pointer_spec(cursor: Cursor, at: int, word: str) -> tree.Spec:
     """What a pointer points to."""
     cursor.accept("TO")
     cursor.deeper()
     target = specification(cursor)
     cursor.depth -= 1
-    return PointerSpec(at, word, target)
+    return tree.PointerSpec(at, word, target)
 
 
-def _string_spec(cursor: Cursor) -> Spec:
+def _string_spec(cursor: Cursor) -> tree.Spec:
     """`STRING`, `STRING[20]`, `STRING(20)`."""
     at, wide = cursor.ats[cursor.i], cursor.kinds[cursor.i] == "WSTRING"
     cursor.i += 1
     bracket = cursor.kinds[cursor.i]
     if bracket not in ("[", "("):
-        return StringSpec(at, wide, None, "")
+        return tree.StringSpec(at, wide, None, "")
     cursor.i += 1
     length = expression(cursor)
     cursor.expect("]" if bracket == "[" else ")")
-    return StringSpec(at, wide, length, bracket)
+    return tree.StringSpec(at, wide, length, bracket)
 
 
-def _array_spec(cursor: Cursor) -> Spec:
+def _array_spec(cursor: Cursor) -> tree.Spec:
     """`ARRAY[0..9, 1..2] OF element`."""
     at = cursor.ats[cursor.i]
     cursor.i += 1
@@ -206,38 +190,38 @@ def _array_spec(cursor: Cursor) -> Spec:
     cursor.deeper()
     element = specification(cursor)
     cursor.depth -= 1
-    return ArraySpec(at, ranges, element)
+    return tree.ArraySpec(at, ranges, element)
 
 
-def _limits(cursor: Cursor) -> Range | None:
+def _limits(cursor: Cursor) -> tree.Range | None:
     """`low..high`, or None for `*`."""
     if cursor.accept("*"):
         return None
     at = cursor.ats[cursor.i]
     low = expression(cursor)
     cursor.expect("..")
-    return Range(at, low, expression(cursor))
+    return tree.Range(at, low, expression(cursor))
 
 
-def _struct_spec(cursor: Cursor) -> Spec:
+def _struct_spec(cursor: Cursor) -> tree.Spec:
     """`STRUCT ... END_STRUCT`."""
     at = cursor.ats[cursor.i]
     cursor.i += 1
     cursor.deeper()
-    made = StructSpec(at, [])
-    _declarations(cursor, made.fields, VarKind.FIELD, (), "END_STRUCT")
+    made = tree.StructSpec(at, [])
+    _declarations(cursor, made.fields, tree.VarKind.FIELD, (), "END_STRUCT")
     cursor.depth -= 1
     return made
 
 
-def _enum_spec(cursor: Cursor, base: str | None) -> Spec:
+def _enum_spec(cursor: Cursor, base: str | None) -> tree.Spec:
     """`(A, B := 2)`."""
     at = cursor.ats[cursor.i]
     cursor.i += 1
-    items: list[EnumItem] = []
+    items: list[tree.EnumItem] = []
     while True:
         leading, here = cursor.leading(), cursor.ats[cursor.i]
-        item = EnumItem(here, cursor.name("the name of a value"), _optional_value(cursor))
+        item = tree.EnumItem(here, cursor.name("the name of a value"), _optional_value(cursor))
         item.leading = leading
         items.append(item)
         more = cursor.accept(",")
@@ -245,14 +229,14 @@ def _enum_spec(cursor: Cursor, base: str | None) -> Spec:
         if not more:
             break
     cursor.expect(")")
-    return EnumSpec(at, items, base)
+    return tree.EnumSpec(at, items, base)
 
 
-def type_block(cursor: Cursor, number: int) -> list[TypeDecl]:
+def type_block(cursor: Cursor, number: int) -> list[tree.TypeDecl]:
     """`TYPE ... END_TYPE`. Never raises SyntaxProblem."""
     block_comments = cursor.leading()
     cursor.i += 1
-    made: list[TypeDecl] = []
+    made: list[tree.TypeDecl] = []
     while cursor.kinds[cursor.i] != "END_TYPE":
         start, depth = cursor.i, cursor.depth
         try:
@@ -269,18 +253,18 @@ def type_block(cursor: Cursor, number: int) -> list[TypeDecl]:
     return made
 
 
-def _type_declaration(cursor: Cursor, number: int) -> TypeDecl:
+def _type_declaration(cursor: Cursor, number: int) -> tree.TypeDecl:
     """`Name : spec := initial;` Raises SyntaxProblem."""
     leading, at = cursor.leading(), cursor.ats[cursor.i]
     name = cursor.name("the name of a type or END_TYPE")
     cursor.expect(":")
     spec = specification(cursor)
-    if isinstance(spec, NamedSpec) and cursor.kinds[cursor.i] == "(":
+    if isinstance(spec, tree.NamedSpec) and cursor.kinds[cursor.i] == "(":
         cursor.fail("`;` or `:=`")
     initial = _optional_value(cursor)
     terminated = cursor.accept(";")
-    if not terminated and not (isinstance(spec, StructSpec) and cursor.kinds[cursor.i] in ("END_TYPE", "name")):
+    if not terminated and not (isinstance(spec, tree.StructSpec) and cursor.kinds[cursor.i] in ("END_TYPE", "name")):
         cursor.fail("`;`" if initial is not None else "`;` or `:=`")
-    made = TypeDecl(at, cursor.end_of_last(), name, spec, initial, number, terminated)
+    made = tree.TypeDecl(at, cursor.end_of_last(), name, spec, initial, number, terminated)
     made.leading, made.trailing = leading, cursor.trailing()
     return made

@@ -1,7 +1,5 @@
 """What is at the outermost level of a file, and inside a POU: tokens -> tree (annex B.1.5)."""
 
-from __future__ import annotations
-
 from structured_text.language.grammar.configurations import configuration
 from structured_text.language.grammar.cursor import Cursor, SyntaxProblem
 from structured_text.language.grammar.declarations import VAR_KINDS, path, specification, type_block, var_block

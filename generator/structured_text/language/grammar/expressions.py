@@ -3,31 +3,13 @@
 Accepts what real sources hold beyond the second edition (`w.3`, `p^`, `AND(a, b)`), for the linter to name.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import NoReturn
 
-from structured_text.language import literals
+from structured_text.language import literals, tree
 from structured_text.language.grammar.cursor import MOST_OPERATORS, Cursor, SyntaxProblem
 from structured_text.language.lexer import END
 from structured_text.language.reserved import HARD_KEYWORDS, KEYWORDS
-from structured_text.language.tree import (
-    Argument,
-    Binary,
-    BitAccess,
-    Call,
-    Dereference,
-    Direct,
-    Expression,
-    Index,
-    Literal,
-    LiteralKind,
-    Member,
-    Name,
-    Qualified,
-    Unary,
-)
 
 POWERS = {"OR": 1, "XOR": 2, "AND": 3, "&": 3, "=": 4, "<>": 4, "<": 5, ">": 5, "<=": 5, ">=": 5}
 POWERS |= {"+": 6, "-": 6, "*": 7, "/": 7, "MOD": 7, "**": 8}
@@ -37,7 +19,7 @@ _FUNCTION_OPERATORS = frozenset(["AND", "OR", "XOR", "MOD"])
 _SOFT = KEYWORDS - HARD_KEYWORDS
 
 
-def expression(cursor: Cursor, floor: int = 1) -> Expression:
+def expression(cursor: Cursor, floor: int = 1) -> tree.Expression:
     """An expression whose operators bind at least as tightly as `floor`."""
     kinds = cursor.kinds
     at = cursor.ats[cursor.i]
@@ -52,10 +34,10 @@ def expression(cursor: Cursor, floor: int = 1) -> Expression:
         if cursor.operators > MOST_OPERATORS:
             cursor.too_long()
         right = expression(cursor, power + 1) if power < 8 else unary(cursor)
-        left = Binary(at, "AND" if op == "&" else op, left, right)
+        left = tree.Binary(at, "AND" if op == "&" else op, left, right)
 
 
-def unary(cursor: Cursor) -> Expression:
+def unary(cursor: Cursor) -> tree.Expression:
     """A primary with the signs before it."""
     here = cursor.i
     kind = cursor.kinds[here]
@@ -69,10 +51,10 @@ def unary(cursor: Cursor) -> Expression:
     cursor.deeper()
     operand = unary(cursor)
     cursor.depth -= 1
-    return Unary(cursor.ats[here], kind, operand)
+    return tree.Unary(cursor.ats[here], kind, operand)
 
 
-def _primary(cursor: Cursor, kind: str) -> Expression:
+def _primary(cursor: Cursor, kind: str) -> tree.Expression:
     """A literal, a parenthesis, or a name that looks like a keyword."""
     here = cursor.i
     if kind in _MAKERS:
@@ -83,13 +65,13 @@ def _primary(cursor: Cursor, kind: str) -> Expression:
         return _parenthesis(cursor)
     if kind == "direct":
         cursor.i = here + 1
-        return _postfix(cursor, Direct(cursor.ats[here], cursor.texts[here]))
+        return _postfix(cursor, tree.Direct(cursor.ats[here], cursor.texts[here]))
     if kind in _SOFT or (kind in _FUNCTION_OPERATORS and cursor.kinds[here + 1] == "("):
         return variable(cursor)
     return cursor.fail("an expression")
 
 
-def number(cursor: Cursor, sign: str) -> Literal:
+def number(cursor: Cursor, sign: str) -> tree.Literal:
     """A number without prefix, with the minus before it."""
     here = cursor.i
     cursor.i = here + 1
@@ -104,7 +86,7 @@ def number(cursor: Cursor, sign: str) -> Literal:
     return made
 
 
-def _literal(cursor: Cursor, kind: str) -> Literal | Qualified:
+def _literal(cursor: Cursor, kind: str) -> tree.Literal | tree.Qualified:
     """TRUE, FALSE, a literal with prefix, or a string."""
     here = cursor.i
     cursor.i = here + 1
@@ -121,7 +103,7 @@ def _bad_literal(cursor: Cursor, index: int, error: ValueError) -> NoReturn:
     raise SyntaxProblem
 
 
-def _parenthesis(cursor: Cursor) -> Expression:
+def _parenthesis(cursor: Cursor) -> tree.Expression:
     """`( expression )`, and what may follow it."""
     cursor.i += 1
     cursor.deeper()
@@ -132,15 +114,15 @@ def _parenthesis(cursor: Cursor) -> Expression:
     return inner
 
 
-def variable(cursor: Cursor) -> Expression:
+def variable(cursor: Cursor) -> tree.Expression:
     """A name with its members, indices and arguments."""
     here = cursor.i
     cursor.i = here + 1
-    name = Name(cursor.ats[here], cursor.texts[here])
+    name = tree.Name(cursor.ats[here], cursor.texts[here])
     return _postfix(cursor, name) if cursor.kinds[here + 1] in _POSTFIX else name
 
 
-def _postfix(cursor: Cursor, base: Expression) -> Expression:
+def _postfix(cursor: Cursor, base: tree.Expression) -> tree.Expression:
     """Members, indices, arguments and `^` after `base`."""
     before = cursor.depth
     while True:
@@ -153,30 +135,30 @@ def _postfix(cursor: Cursor, base: Expression) -> Expression:
         if kind == ".":
             base = _member(cursor, base)
         elif kind == "[":
-            base = Index(base.at, base, _indices(cursor))
+            base = tree.Index(base.at, base, _indices(cursor))
         elif kind == "(":
-            base = Call(base.at, base, arguments(cursor))
+            base = tree.Call(base.at, base, arguments(cursor))
         else:
-            base = Dereference(base.at, base)
+            base = tree.Dereference(base.at, base)
 
 
-def _member(cursor: Cursor, base: Expression) -> Expression:
+def _member(cursor: Cursor, base: tree.Expression) -> tree.Expression:
     """What follows a dot: a field, or the number of a bit."""
     here = cursor.i
     kind, text = cursor.kinds[here], cursor.texts[here]
     if kind == "number" and text.isdigit() and len(text) < 4:
         cursor.i = here + 1
-        return BitAccess(base.at, base, int(text), "X")
+        return tree.BitAccess(base.at, base, int(text), "X")
     if kind == "direct" and text[2:].isdigit() and text[1].upper() in "XBWD":
         cursor.i = here + 1
-        return BitAccess(base.at, base, int(text[2:]), text[1].upper())
+        return tree.BitAccess(base.at, base, int(text[2:]), text[1].upper())
     if kind != "name" and kind not in KEYWORDS:
         cursor.fail("the name of a member")
     cursor.i = here + 1
-    return Member(base.at, base, text)
+    return tree.Member(base.at, base, text)
 
 
-def _indices(cursor: Cursor) -> list[Expression]:
+def _indices(cursor: Cursor) -> list[tree.Expression]:
     """`i, j]`."""
     made = [expression(cursor)]
     while cursor.kinds[cursor.i] == ",":
@@ -186,9 +168,9 @@ def _indices(cursor: Cursor) -> list[Expression]:
     return made
 
 
-def arguments(cursor: Cursor) -> list[Argument]:
+def arguments(cursor: Cursor) -> list[tree.Argument]:
     """`a := 1, b => c)`, after the opening parenthesis."""
-    made: list[Argument] = []
+    made: list[tree.Argument] = []
     if cursor.accept(")"):
         return made
     while True:
@@ -202,7 +184,7 @@ def arguments(cursor: Cursor) -> list[Argument]:
     return made
 
 
-def _argument(cursor: Cursor) -> Argument:
+def _argument(cursor: Cursor) -> tree.Argument:
     """One argument, formal or positional."""
     here = cursor.i
     at, kinds = cursor.ats[here], cursor.kinds
@@ -210,17 +192,17 @@ def _argument(cursor: Cursor) -> Argument:
     first = here + 1 if negated else here
     sign = kinds[first + 1] if kinds[first] != END else ""
     if sign not in (":=", "=>") or (kinds[first] != "name" and kinds[first] not in KEYWORDS):
-        return Argument(at, None, expression(cursor))
+        return tree.Argument(at, None, expression(cursor))
     cursor.i = first + 2
     value = None if kinds[cursor.i] in (",", ")") else expression(cursor)
-    return Argument(at, cursor.texts[first], value, sign == "=>", negated)
+    return tree.Argument(at, cursor.texts[first], value, sign == "=>", negated)
 
 
-def _boolean(at: int, text: str) -> Literal:
-    return Literal(at, text, LiteralKind.BOOL, text.upper() == "TRUE")
+def _boolean(at: int, text: str) -> tree.Literal:
+    return tree.Literal(at, text, tree.LiteralKind.BOOL, text.upper() == "TRUE")
 
 
-_MAKERS: dict[str, Callable[[int, str], Literal | Qualified]] = {
+_MAKERS: dict[str, Callable[[int, str], tree.Literal | tree.Qualified]] = {
     "TRUE": _boolean,
     "FALSE": _boolean,
     "typed": literals.typed,

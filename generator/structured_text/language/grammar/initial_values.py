@@ -1,7 +1,5 @@
 """Initial values: tokens -> tree (annex B.1.4)."""
 
-from __future__ import annotations
-
 from structured_text.language.grammar.cursor import Cursor
 from structured_text.language.grammar.expressions import expression, number
 from structured_text.language.tree import Argument, ArrayInitial, Expression, Repeat, StructInitial

@@ -1,32 +1,12 @@
 """Statements: tokens -> tree (annex B.3.2), with recovery, so that one mistake does not hide the next."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
+from structured_text.language import tree
 from structured_text.language.grammar.cursor import Cursor, SyntaxProblem
 from structured_text.language.grammar.expressions import expression, unary, variable
 from structured_text.language.lexer import END
 from structured_text.language.reserved import HARD_KEYWORDS, KEYWORDS
-from structured_text.language.tree import (
-    Assign,
-    Branch,
-    Call,
-    CallStatement,
-    Case,
-    CaseBranch,
-    Continue,
-    Empty,
-    Exit,
-    Expression,
-    For,
-    If,
-    LabelRange,
-    RepeatUntil,
-    Return,
-    Statement,
-    While,
-)
 
 # Words at which a list of statements ends, whoever opened it.
 _ENDS = frozenset(each for each in KEYWORDS if each.startswith("END_"))
@@ -39,9 +19,9 @@ _BEHIND_VARIABLE = frozenset([":=", ".", "[", "(", "^"])
 _LATCHES = {"S": "S=", "R": "R=", "REF": "REF="}
 
 
-def statements(cursor: Cursor, in_case: bool = False) -> list[Statement]:
+def statements(cursor: Cursor, in_case: bool = False) -> list[tree.Statement]:
     """Statements up to a word that ends them (in CASE also up to the next label); never raises SyntaxProblem."""
-    made: list[Statement] = []
+    made: list[tree.Statement] = []
     kinds = cursor.kinds
     while True:
         kind = kinds[cursor.i]
@@ -72,7 +52,7 @@ def _recover(cursor: Cursor) -> None:
     cursor.i += 1
 
 
-def _statement(cursor: Cursor, kind: str) -> Statement:
+def _statement(cursor: Cursor, kind: str) -> tree.Statement:
     """One statement with its comments and its `;`. Raises SyntaxProblem."""
     leading = cursor.leading() if cursor.i in cursor.before else ()
     cursor.operators = 0
@@ -98,32 +78,32 @@ def _closed(cursor: Cursor, word: str) -> None:
         cursor.notes.append(("missing-semicolon", cursor.ats[cursor.i - 1]))
 
 
-def _simple(cursor: Cursor) -> Statement:
+def _simple(cursor: Cursor) -> tree.Statement:
     kind = cursor.kinds[cursor.i]
     at = cursor.ats[cursor.i]
     if kind != "name" and kind not in _SOFT and kind != "direct":
         cursor.fail("a statement")
     target = unary(cursor) if kind == "direct" else variable(cursor)
     if cursor.kinds[cursor.i] == ";" and cursor.texts[cursor.i - 1].upper() == "CONTINUE":
-        return Continue(at)
+        return tree.Continue(at)
     if cursor.kinds[cursor.i] == ":=":
         cursor.i += 1
-        return Assign(at, target, expression(cursor))
-    if isinstance(target, Call):
-        return CallStatement(at, target)
+        return tree.Assign(at, target, expression(cursor))
+    if isinstance(target, tree.Call):
+        return tree.CallStatement(at, target)
     return _latch(cursor, at, target)
 
 
-def _latch(cursor: Cursor, at: int, target: Expression) -> Statement:
+def _latch(cursor: Cursor, at: int, target: tree.Expression) -> tree.Statement:
     """`x S= condition` and its kind."""
     op = _LATCHES.get(cursor.texts[cursor.i].upper())
     if op is None or cursor.kinds[cursor.i + 1] != "=":
         cursor.fail("`:=` or `(`")
     cursor.i += 2
-    return Assign(at, target, expression(cursor), op)
+    return tree.Assign(at, target, expression(cursor), op)
 
 
-def _body(cursor: Cursor, in_case: bool = False) -> list[Statement]:
+def _body(cursor: Cursor, in_case: bool = False) -> list[tree.Statement]:
     """The statements inside another one, a level deeper."""
     cursor.deeper()
     made = statements(cursor, in_case)
@@ -131,7 +111,7 @@ def _body(cursor: Cursor, in_case: bool = False) -> list[Statement]:
     return made
 
 
-def _if(cursor: Cursor) -> Statement:
+def _if(cursor: Cursor) -> tree.Statement:
     """IF ... END_IF."""
     at = cursor.ats[cursor.i]
     branches = [_branch(cursor)]
@@ -139,26 +119,26 @@ def _if(cursor: Cursor) -> Statement:
         branches.append(_branch(cursor))
     otherwise = _body(cursor) if cursor.accept("ELSE") else None
     _closed(cursor, "END_IF")
-    return If(at, branches, otherwise)
+    return tree.If(at, branches, otherwise)
 
 
-def _branch(cursor: Cursor) -> Branch:
+def _branch(cursor: Cursor) -> tree.Branch:
     """IF or ELSIF, its condition and its statements."""
     at = cursor.ats[cursor.i]
     cursor.i += 1
     cursor.operators = 0
     condition = expression(cursor)
     cursor.expect("THEN")
-    return Branch(at, condition, _body(cursor))
+    return tree.Branch(at, condition, _body(cursor))
 
 
-def _case(cursor: Cursor) -> Statement:
+def _case(cursor: Cursor) -> tree.Statement:
     """CASE ... END_CASE."""
     at = cursor.ats[cursor.i]
     cursor.i += 1
     selector = expression(cursor)
     cursor.expect("OF")
-    branches: list[CaseBranch] = []
+    branches: list[tree.CaseBranch] = []
     while _at_label(cursor, cursor.kinds[cursor.i]):
         branches.append(_case_branch(cursor))
     otherwise = None
@@ -168,7 +148,7 @@ def _case(cursor: Cursor) -> Statement:
     if cursor.kinds[cursor.i] != "END_CASE":
         cursor.fail("a label, ELSE or END_CASE")
     _closed(cursor, "END_CASE")
-    return Case(at, selector, branches, otherwise)
+    return tree.Case(at, selector, branches, otherwise)
 
 
 def _at_label(cursor: Cursor, kind: str) -> bool:
@@ -183,7 +163,7 @@ def _at_label(cursor: Cursor, kind: str) -> bool:
     return cursor.kinds[here] in _BEHIND_LABEL
 
 
-def _case_branch(cursor: Cursor) -> CaseBranch:
+def _case_branch(cursor: Cursor) -> tree.CaseBranch:
     """`1, 3..5: statements`."""
     leading, at = cursor.leading(), cursor.ats[cursor.i]
     labels = [_label(cursor)]
@@ -191,21 +171,21 @@ def _case_branch(cursor: Cursor) -> CaseBranch:
         labels.append(_label(cursor))
     cursor.expect(":")
     trailing = cursor.trailing()
-    made = CaseBranch(at, labels, _body(cursor, in_case=True))
+    made = tree.CaseBranch(at, labels, _body(cursor, in_case=True))
     made.leading, made.trailing = leading, trailing
     return made
 
 
-def _label(cursor: Cursor) -> Expression | LabelRange:
+def _label(cursor: Cursor) -> tree.Expression | tree.LabelRange:
     """A single label or `low..high`."""
     at = cursor.ats[cursor.i]
     low = expression(cursor, 6)
     if not cursor.accept(".."):
         return low
-    return LabelRange(at, low, expression(cursor, 6))
+    return tree.LabelRange(at, low, expression(cursor, 6))
 
 
-def _for(cursor: Cursor) -> Statement:
+def _for(cursor: Cursor) -> tree.Statement:
     """FOR ... END_FOR."""
     at = cursor.ats[cursor.i]
     cursor.i += 1
@@ -218,10 +198,10 @@ def _for(cursor: Cursor) -> Statement:
     cursor.expect("DO")
     body = _body(cursor)
     _closed(cursor, "END_FOR")
-    return For(at, variable, start, stop, step, body)
+    return tree.For(at, variable, start, stop, step, body)
 
 
-def _while(cursor: Cursor) -> Statement:
+def _while(cursor: Cursor) -> tree.Statement:
     """WHILE ... END_WHILE."""
     at = cursor.ats[cursor.i]
     cursor.i += 1
@@ -229,10 +209,10 @@ def _while(cursor: Cursor) -> Statement:
     cursor.expect("DO")
     body = _body(cursor)
     _closed(cursor, "END_WHILE")
-    return While(at, condition, body)
+    return tree.While(at, condition, body)
 
 
-def _repeat(cursor: Cursor) -> Statement:
+def _repeat(cursor: Cursor) -> tree.Statement:
     """REPEAT ... END_REPEAT."""
     at = cursor.ats[cursor.i]
     cursor.i += 1
@@ -242,31 +222,31 @@ def _repeat(cursor: Cursor) -> Statement:
     if cursor.accept(";"):
         cursor.notes.append(("stray-semicolon", cursor.ats[cursor.i - 1]))
     _closed(cursor, "END_REPEAT")
-    return RepeatUntil(at, body, condition)
+    return tree.RepeatUntil(at, body, condition)
 
 
-def _empty(cursor: Cursor) -> Statement:
+def _empty(cursor: Cursor) -> tree.Statement:
     """A `;` with nothing before it."""
     cursor.i += 1
-    return Empty(cursor.ats[cursor.i - 1])
+    return tree.Empty(cursor.ats[cursor.i - 1])
 
 
-def _exit(cursor: Cursor) -> Statement:
+def _exit(cursor: Cursor) -> tree.Statement:
     """EXIT."""
     cursor.i += 1
-    return Exit(cursor.ats[cursor.expect(";") - 1])
+    return tree.Exit(cursor.ats[cursor.expect(";") - 1])
 
 
-def _return(cursor: Cursor) -> Statement:
+def _return(cursor: Cursor) -> tree.Statement:
     """RETURN."""
     at = cursor.ats[cursor.i]
     cursor.i += 1
     value = None if cursor.kinds[cursor.i] == ";" else expression(cursor)
     cursor.expect(";")
-    return Return(at, value)
+    return tree.Return(at, value)
 
 
-_STARTS: dict[str, Callable[[Cursor], Statement]] = {
+_STARTS: dict[str, Callable[[Cursor], tree.Statement]] = {
     "IF": _if, "CASE": _case, "FOR": _for, "WHILE": _while, "REPEAT": _repeat, ";": _empty, "EXIT": _exit,
     "RETURN": _return,
 }  # fmt: skip

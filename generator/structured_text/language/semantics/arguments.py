@@ -1,7 +1,5 @@
 """Which argument belongs to which parameter (clauses 2.5.1.3, 3.3.2.2)."""
 
-from __future__ import annotations
-
 from structured_text.language.report import nearest
 from structured_text.language.semantics.scope import Scope, expect, infer
 from structured_text.language.semantics.targets import assignable

@@ -1,7 +1,5 @@
 """Calls (clauses 2.5.1, 2.5.2, 3.3.2.2): which function or block is meant."""
 
-from __future__ import annotations
-
 from structured_text.language.report import nearest
 from structured_text.language.semantics.arguments import bind, infer_argument
 from structured_text.language.semantics.functions import standard_call, type_conversion

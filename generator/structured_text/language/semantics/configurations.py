@@ -1,7 +1,5 @@
 """Tasks and program instances (clause 2.7)."""
 
-from __future__ import annotations
-
 from structured_text.language.semantics.arguments import check_argument
 from structured_text.language.semantics.scope import Scope, expect
 from structured_text.language.tree import Configuration, Name, Program, ProgramInstance, Resource, Task

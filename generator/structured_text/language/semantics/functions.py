@@ -1,7 +1,5 @@
 """Calls of standard functions (clause 2.5.1.5): what an overloaded name means in one call."""
 
-from __future__ import annotations
-
 from structured_text.language.semantics.arguments import sort_arguments
 from structured_text.language.semantics.operators import conversion_to_bits
 from structured_text.language.semantics.scope import Scope, infer

@@ -1,33 +1,12 @@
 """The types of expressions (clause 3.3.1): operands of one type, nothing converted by itself."""
 
-from __future__ import annotations
-
 from typing import Any
 
+from structured_text.language import tree
 from structured_text.language.library import fold
 from structured_text.language.report import nearest
 from structured_text.language.semantics.scope import Scope, infer
 from structured_text.language.semantics.values import choose, untyped_of, within
-from structured_text.language.tree import (
-    Array,
-    BitAccess,
-    Block,
-    Dereference,
-    Direct,
-    Enum,
-    EnumValue,
-    Expression,
-    Index,
-    Literal,
-    LiteralKind,
-    Member,
-    Name,
-    Qualified,
-    Struct,
-    TypeDecl,
-    VarDecl,
-    VarKind,
-)
 from structured_text.language.types import (
     BOOL,
     BYTE,
@@ -50,14 +29,14 @@ from structured_text.language.types import (
     untyped,
 )
 
-_FIXED_LITERALS = {LiteralKind.BOOL: BOOL, LiteralKind.STRING: STRING, LiteralKind.WSTRING: WSTRING}
-_FIXED_LITERALS |= {LiteralKind.TIME: TIME, LiteralKind.DATE: DATE}
-_FIXED_LITERALS |= {LiteralKind.TIME_OF_DAY: TIME_OF_DAY, LiteralKind.DATE_AND_TIME: DATE_AND_TIME}
-_NOT_KEPT = (VarKind.TEMP, VarKind.EXTERNAL)
+_FIXED_LITERALS = {tree.LiteralKind.BOOL: BOOL, tree.LiteralKind.STRING: STRING, tree.LiteralKind.WSTRING: WSTRING}
+_FIXED_LITERALS |= {tree.LiteralKind.TIME: TIME, tree.LiteralKind.DATE: DATE}
+_FIXED_LITERALS |= {tree.LiteralKind.TIME_OF_DAY: TIME_OF_DAY, tree.LiteralKind.DATE_AND_TIME: DATE_AND_TIME}
+_NOT_KEPT = (tree.VarKind.TEMP, tree.VarKind.EXTERNAL)
 _DIRECT = {"X": BOOL, "B": BYTE, "W": WORD, "D": DWORD, "L": LWORD}
 
 
-def literal(scope: Scope, value: Literal) -> Type:
+def literal(scope: Scope, value: tree.Literal) -> Type:
     """A literal: of its prefix, or of its kind."""
     fixed = _FIXED_LITERALS.get(value.kind)
     if fixed is not None:
@@ -69,7 +48,7 @@ def literal(scope: Scope, value: Literal) -> Type:
     return made
 
 
-def name(scope: Scope, value: Name) -> Type:
+def name(scope: Scope, value: tree.Name) -> Type:
     symbol = scope.symbols.get(value.name.upper())
     if symbol is not None:
         value.symbol = symbol
@@ -85,7 +64,7 @@ def name(scope: Scope, value: Name) -> Type:
     return _unknown_name(scope, value)
 
 
-def _unknown_name(scope: Scope, value: Name) -> Type:
+def _unknown_name(scope: Scope, value: tree.Name) -> Type:
     """Report a name that is declared nowhere here."""
     upper = value.name.upper()
     variable = scope.library.global_variables.get(upper)
@@ -105,16 +84,16 @@ def _unknown_name(scope: Scope, value: Name) -> Type:
     return UNKNOWN
 
 
-def qualified(scope: Scope, value: Qualified) -> Type:
+def qualified(scope: Scope, value: tree.Qualified) -> Type:
     """`E#V`."""
     found = scope.library.find(value.type_name)
-    enum = found.type if isinstance(found, TypeDecl) else UNKNOWN
+    enum = found.type if isinstance(found, tree.TypeDecl) else UNKNOWN
     return _enum_value(scope, value, enum, value.type_name, value.name)
 
 
-def _enum_value(scope: Scope, value: Qualified | Member, enum: Type, type_name: str, name: str) -> Type:
+def _enum_value(scope: Scope, value: tree.Qualified | tree.Member, enum: Type, type_name: str, name: str) -> Type:
     """A value of a named enumeration."""
-    if not isinstance(enum, Enum):
+    if not isinstance(enum, tree.Enum):
         text = f"expected an enumeration before {name}, found {type_name}"
         scope.report.add(value.at, "undeclared-name", text)
         return UNKNOWN
@@ -125,20 +104,20 @@ def _enum_value(scope: Scope, value: Qualified | Member, enum: Type, type_name: 
     return enum
 
 
-def member(scope: Scope, value: Member) -> Type:
-    if isinstance(value.base, Name) and value.base.name.upper() not in scope.symbols:
+def member(scope: Scope, value: tree.Member) -> Type:
+    if isinstance(value.base, tree.Name) and value.base.name.upper() not in scope.symbols:
         found = scope.library.find(value.base.name)
-        if isinstance(found, TypeDecl):
+        if isinstance(found, tree.TypeDecl):
             return _enum_value(scope, value, found.type, value.base.name, value.name)
     base = infer(scope, value.base)
     upper = value.name.upper()
-    if isinstance(base, Struct):
+    if isinstance(base, tree.Struct):
         value.symbol = base.fields.get(upper)
         known = [each.name for each in base.fields.values()]
-    elif isinstance(base, Block):
+    elif isinstance(base, tree.Block):
         value.symbol = block_variable(base, upper)
         known = [each.name for each in base.parameters.values()]
-        if isinstance(value.symbol, VarDecl) and value.symbol.kind in _NOT_KEPT:
+        if isinstance(value.symbol, tree.VarDecl) and value.symbol.kind in _NOT_KEPT:
             text = f"{value.name} is no part of an instance of {base}, being a {value.symbol.kind.value}"
             scope.report.add(value.at, "undeclared-name", f"{text}: make it a VAR_OUTPUT")
             return UNKNOWN
@@ -151,21 +130,21 @@ def member(scope: Scope, value: Member) -> Type:
         text = f"expected a member of {base}, found {value.name}{nearest(value.name, known)}"
         scope.report.add(value.at, "undeclared-name", text)
         return UNKNOWN
-    return UNKNOWN if isinstance(value.symbol, EnumValue) else value.symbol.type
+    return UNKNOWN if isinstance(value.symbol, tree.EnumValue) else value.symbol.type
 
 
-def block_variable(block: Block, upper: str) -> Any:
+def block_variable(block: tree.Block, upper: str) -> Any:
     """A variable of a block: its declaration, or the parameter of a standard block."""
     if block.declaration is not None:
         return block.declaration.symbols.get(upper)
     return block.parameters.get(upper)
 
 
-def index(scope: Scope, value: Index) -> Type:
+def index(scope: Scope, value: tree.Index) -> Type:
     base = infer(scope, value.base)
     for each in value.indices:
         _index_type(scope, each)
-    if not isinstance(base, Array):
+    if not isinstance(base, tree.Array):
         if base is not UNKNOWN:
             what = "a string has no elements" if base.kind is Kind.STRING else f"found {base}"
             rule = "string-index" if base.kind is Kind.STRING else "type-mismatch"
@@ -179,7 +158,7 @@ def index(scope: Scope, value: Index) -> Type:
     return base.element
 
 
-def _index_type(scope: Scope, value: Expression) -> None:
+def _index_type(scope: Scope, value: tree.Expression) -> None:
     """An index is an integer."""
     if untyped(infer(scope, value)):
         choose(scope.report, value)
@@ -191,7 +170,7 @@ def _index_type(scope: Scope, value: Expression) -> None:
         scope.report.add(value.at, "type-mismatch", f"expected an integer as index, found {value.type}")
 
 
-def _index_range(scope: Scope, value: Expression, bounds: tuple[int, int]) -> None:
+def _index_range(scope: Scope, value: tree.Expression, bounds: tuple[int, int]) -> None:
     """Report a constant index outside the bounds."""
     found = fold(value, scope.constant)
     if found is not None and not bounds[0] <= found <= bounds[1]:
@@ -199,7 +178,7 @@ def _index_range(scope: Scope, value: Expression, bounds: tuple[int, int]) -> No
         scope.report.add(value.at, "index-range", text)
 
 
-def bit_access(scope: Scope, value: BitAccess) -> Type:
+def bit_access(scope: Scope, value: tree.BitAccess) -> Type:
     """`w.3`."""
     base = infer(scope, value.base)
     made = _DIRECT[value.unit]
@@ -216,14 +195,14 @@ def bit_access(scope: Scope, value: BitAccess) -> Type:
     return made
 
 
-def dereference(scope: Scope, value: Dereference) -> Type:
+def dereference(scope: Scope, value: tree.Dereference) -> Type:
     """`p^`."""
     base = infer(scope, value.base)
     scope.report.add(value.at, "pointer", "^ is not in the second edition: pass a VAR_IN_OUT instead")
     return base.target if isinstance(base, Pointer) else UNKNOWN
 
 
-def direct(scope: Scope, value: Direct) -> Type:
+def direct(scope: Scope, value: tree.Direct) -> Type:
     """`%IX0.0`."""
     text = f"{value.text} ties the text to one machine: pass the value through a parameter"
     scope.report.add(value.at, "direct-address", text)
@@ -231,7 +210,7 @@ def direct(scope: Scope, value: Direct) -> Type:
     return _DIRECT.get(letter, BOOL if letter.isdigit() else UNKNOWN)
 
 
-def misplaced(scope: Scope, value: Expression) -> Type:
+def misplaced(scope: Scope, value: tree.Expression) -> Type:
     """An initialiser where an expression is wanted."""
     scope.report.add(
         value.at, "type-mismatch", "expected an expression, found the initial value of an array or structure"
@@ -239,7 +218,7 @@ def misplaced(scope: Scope, value: Expression) -> Type:
     return UNKNOWN
 
 
-def _bit_text(value: BitAccess, base: Elementary, made: Elementary) -> str:
+def _bit_text(value: tree.BitAccess, base: Elementary, made: Elementary) -> str:
     """What to write instead of a bit access."""
     name = plain(base).name
     if made is BOOL and base.kind is Kind.BITS:

@@ -1,7 +1,5 @@
 """The types of operators (clause 3.3.1, tables 24 to 30): operands of one type, nothing converted by itself."""
 
-from __future__ import annotations
-
 from structured_text.language.semantics.scope import Scope, infer
 from structured_text.language.semantics.values import choose, default, fits, leave_open, settle
 from structured_text.language.tree import Binary, Expression, Literal, Unary

@@ -1,7 +1,5 @@
 """What the functions of the checker share: the declarations that an expression sees, and the list of problems."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any
@@ -31,11 +29,11 @@ class Scope:
     written: set[str] = field(default_factory=set)
     in_loop: bool = False
 
-    def around(self, symbols: dict[str, VarDecl]) -> Scope:
+    def around(self, symbols: dict[str, VarDecl]) -> "Scope":
         """Another piece of text, with variables of its own."""
         return replace(self, symbols=symbols, called=set(), written=set())
 
-    def inside_loop(self) -> Scope:
+    def inside_loop(self) -> "Scope":
         """The same piece of text, inside a loop of it."""
         return replace(self, in_loop=True)
 

@@ -1,52 +1,29 @@
 """Statements (clause 3.3.2) and initial values."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any
 
+from structured_text.language import tree
 from structured_text.language.library import fold
 from structured_text.language.semantics.calls import call_type
 from structured_text.language.semantics.scope import Scope, expect, infer
 from structured_text.language.semantics.targets import assignable
 from structured_text.language.semantics.values import choose, fits, settle
-from structured_text.language.tree import (
-    Assign,
-    Block,
-    Call,
-    CallStatement,
-    Case,
-    Continue,
-    Empty,
-    EnumValue,
-    Exit,
-    Expression,
-    For,
-    If,
-    LabelRange,
-    Literal,
-    Name,
-    Qualified,
-    RepeatUntil,
-    Return,
-    Statement,
-    While,
-)
 from structured_text.language.types import BOOL, INT, UNKNOWN, Kind, Type, plain, untyped
 
 
-def check_statements(scope: Scope, body: list[Statement]) -> None:
+def check_statements(scope: Scope, body: list[tree.Statement]) -> None:
     """Check a list of statements."""
     for each in body:
         _CHECKS[type(each)](scope, each)
 
 
-def _condition(scope: Scope, value: Expression) -> None:
+def _condition(scope: Scope, value: tree.Expression) -> None:
     """A condition is BOOL."""
     expect(scope, value, BOOL)
 
 
-def _assign(scope: Scope, statement: Assign) -> None:
+def _assign(scope: Scope, statement: tree.Assign) -> None:
     """`target := value`."""
     target, value = statement.target, statement.value
     have = infer(scope, target)
@@ -54,24 +31,24 @@ def _assign(scope: Scope, statement: Assign) -> None:
     if statement.op != ":=":
         text = f"{statement.op} is no operator of the second edition: write IF ... THEN ... END_IF or SR and RS"
         scope.report.add(statement.at, "dialect-assignment", text)
-    if isinstance(target, Call):
+    if isinstance(target, tree.Call):
         scope.report.add(target.at, "not-assignable", "expected a variable before :=, found a call")
     else:
         assignable(scope, target, "before :=")
     fits(scope.report, value, have)
 
 
-def _call_statement(scope: Scope, statement: CallStatement) -> None:
+def _call_statement(scope: Scope, statement: tree.CallStatement) -> None:
     """An invocation of a block."""
     call = statement.call
     call.type = call_type(scope, call, statement=True)
-    if call.target is not None and not isinstance(call.target, Block):
+    if call.target is not None and not isinstance(call.target, tree.Block):
         settle(scope.report, call, UNKNOWN)
         text = "a function is no statement in the second edition: assign its result"
         scope.report.add(call.at, "function-as-statement", text)
 
 
-def _if(scope: Scope, statement: If) -> None:
+def _if(scope: Scope, statement: tree.If) -> None:
     """IF."""
     for branch in statement.branches:
         _condition(scope, branch.condition)
@@ -79,28 +56,28 @@ def _if(scope: Scope, statement: If) -> None:
     check_statements(scope, statement.otherwise or [])
 
 
-def _while(scope: Scope, statement: While) -> None:
+def _while(scope: Scope, statement: tree.While) -> None:
     """WHILE."""
     _condition(scope, statement.condition)
     _loop(scope, statement.body)
 
 
-def _repeat(scope: Scope, statement: RepeatUntil) -> None:
+def _repeat(scope: Scope, statement: tree.RepeatUntil) -> None:
     """REPEAT."""
     _loop(scope, statement.body)
     _condition(scope, statement.condition)
 
 
-def _loop(scope: Scope, body: list[Statement]) -> None:
+def _loop(scope: Scope, body: list[tree.Statement]) -> None:
     """The body of a loop."""
     check_statements(scope.inside_loop(), body)
 
 
-def _for(scope: Scope, statement: For) -> None:
+def _for(scope: Scope, statement: tree.For) -> None:
     """FOR."""
     have = infer(scope, statement.variable)
     assignable(scope, statement.variable, "to count with")
-    if not isinstance(statement.variable, Name) and have is not UNKNOWN:
+    if not isinstance(statement.variable, tree.Name) and have is not UNKNOWN:
         text = "expected a variable of its own to count with, found a part of another"
         scope.report.add(statement.variable.at, "type-mismatch", text)
     elif have.kind is not Kind.INTEGER and have is not UNKNOWN:
@@ -114,14 +91,14 @@ def _for(scope: Scope, statement: For) -> None:
     _loop(scope, statement.body)
 
 
-def _exit(scope: Scope, statement: Exit | Continue) -> None:
+def _exit(scope: Scope, statement: tree.Exit | tree.Continue) -> None:
     """EXIT and CONTINUE."""
     if not scope.in_loop:
         word = type(statement).__name__.upper()
         scope.report.add(statement.at, "misplaced-exit", f"expected {word} inside a loop only")
 
 
-def _return(scope: Scope, statement: Return) -> None:
+def _return(scope: Scope, statement: tree.Return) -> None:
     """RETURN."""
     if statement.value is not None:
         infer(scope, statement.value)
@@ -130,11 +107,11 @@ def _return(scope: Scope, statement: Return) -> None:
         scope.report.add(statement.at, "return-value", text)
 
 
-def _empty(scope: Scope, statement: Empty) -> None:
+def _empty(scope: Scope, statement: tree.Empty) -> None:
     """Nothing to check; the linter has an opinion."""
 
 
-def _case(scope: Scope, statement: Case) -> None:
+def _case(scope: Scope, statement: tree.Case) -> None:
     """CASE."""
     selector = statement.selector
     have = infer(scope, selector)
@@ -156,9 +133,11 @@ def _case(scope: Scope, statement: Case) -> None:
     check_statements(scope, statement.otherwise or [])
 
 
-def _label(scope: Scope, label: Expression | LabelRange, wanted: Type, taken: list[tuple[int, int, int]]) -> None:
+def _label(
+    scope: Scope, label: tree.Expression | tree.LabelRange, wanted: Type, taken: list[tuple[int, int, int]]
+) -> None:
     """One label; the numbers that it takes are added to `taken` with its place."""
-    if not isinstance(label, LabelRange):
+    if not isinstance(label, tree.LabelRange):
         number = _label_value(scope, label, wanted)
         if number is not None:
             taken.append((number, number, label.at))
@@ -173,13 +152,13 @@ def _label(scope: Scope, label: Expression | LabelRange, wanted: Type, taken: li
         taken.append((low, high, label.at))
 
 
-def _label_value(scope: Scope, label: Expression, wanted: Type) -> int | None:
+def _label_value(scope: Scope, label: tree.Expression, wanted: Type) -> int | None:
     """The number of a label."""
     expect(scope, label, wanted)
-    if isinstance(label, Literal):
+    if isinstance(label, tree.Literal):
         return label.value if isinstance(label.value, int) else None
-    symbol = label.symbol if isinstance(label, Name | Qualified) else getattr(label, "symbol", None)
-    if isinstance(symbol, EnumValue):
+    symbol = label.symbol if isinstance(label, tree.Name | tree.Qualified) else getattr(label, "symbol", None)
+    if isinstance(symbol, tree.EnumValue):
         return symbol.number
     if label.type is not UNKNOWN:
         text = "expected a decimal literal or enumerated value: matiec refuses constants and expressions as labels"
@@ -196,7 +175,8 @@ def _overlaps(scope: Scope, taken: list[tuple[int, int, int]]) -> None:
         highest = high if highest is None else max(high, highest)
 
 
-_CHECKS: dict[type[Statement], Callable[[Scope, Any], None]] = {
-    Assign: _assign, CallStatement: _call_statement, If: _if, Case: _case, For: _for, While: _while,
-    RepeatUntil: _repeat, Exit: _exit, Continue: _exit, Return: _return, Empty: _empty,
+_CHECKS: dict[type[tree.Statement], Callable[[Scope, Any], None]] = {
+    tree.Assign: _assign, tree.CallStatement: _call_statement, tree.If: _if, tree.Case: _case, tree.For: _for,
+    tree.While: _while, tree.RepeatUntil: _repeat, tree.Exit: _exit, tree.Continue: _exit, tree.Return: _return,
+    tree.Empty: _empty,
 }  # fmt: skip

@@ -6,9 +6,9 @@ from structured_text.engines.matiec.c_lines import take_lines
 from structured_text.engines.matiec.header import (
     AliasType,
     ArrayType,
+    ConfigurationC,
     EnumType,
     Function,
-    Global,
     Member,
     Storage,
     StructType,
@@ -106,19 +106,12 @@ def test_types_blocks_and_functions() -> None:
 
 def test_configuration(tmp_path: Path) -> None:
     (tmp_path / "POUS.c").touch()
-    assert read_configuration(tmp_path) is None
+    assert read_configuration(tmp_path) == ConfigurationC((), {})
     (tmp_path / "Plant.c").write_text(CONFIGURATION, encoding="utf-8")
     (tmp_path / "Cpu.c").write_text(RESOURCE, encoding="utf-8")
     found = read_configuration(tmp_path)
-    assert found is not None
-    assert (found.name, found.files, found.resources) == ("PLANT", ["Plant.c", "Cpu.c"], ["CPU"])
-    assert found.programs == [("CPU", "MAIN", "WORKER")]
-    assert found.globals == [
-        Global("PLANT", "TOTAL", "INT", Storage.VALUE),
-        Global("PLANT", "SHARED", "TON", Storage.BLOCK),
-        Global("PLANT", "LEVEL", "INT", Storage.LOCATED),
-        Global("CPU", "OWN", "BOOL", Storage.VALUE),
-    ]
+    assert found.files == ("Cpu.c", "Plant.c")
+    assert found.globals == {"OWN": "BOOL", "TOTAL": "INT", "SHARED": "TON", "LEVEL": "INT"}
 
 
 def test_locations_between_rubbish(tmp_path: Path) -> None:

@@ -147,7 +147,7 @@ def test_division_by_zero_ends_the_scan_and_not_the_process(build: Builder) -> N
 
 @pytest.mark.skipif(sys.platform == "win32", reason="there is no timer of processor time on Windows")
 def test_scan_without_end_is_stopped(build: Builder, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("structured_text.engines.matiec.guard.SCAN_SECONDS", 0.25)
+    monkeypatch.setattr("structured_text.engines.matiec.binary.SCAN_SECONDS", 0.25)
     text = """FUNCTION_BLOCK Endless
   VAR_INPUT
     Stop : BOOL := TRUE;

@@ -4,8 +4,8 @@ from dataclasses import replace
 
 import pytest
 
+from structured_text.engines.discovery import Behaviour, observe
 from structured_text.engines.matiec import MatiecEngine
-from structured_text.engines.matiec.line import Behaviour, observe
 
 
 @pytest.mark.parametrize(

@@ -3,7 +3,7 @@
 import pytest
 
 from structured_text.engines.engine import EngineError, Value
-from structured_text.engines.matiec.literal import constant
+from structured_text.engines.matiec.library import constant
 
 
 @pytest.mark.parametrize(
