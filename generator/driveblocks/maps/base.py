@@ -4,13 +4,12 @@ What a map takes over keeps its source, and names its document: the sister's man
 holds for all that it takes over in that place.
 """
 
-from collections.abc import Iterator
 from pathlib import Path
 from typing import NamedTuple
 
 from driveblocks.maps import catalog
 from driveblocks.maps.model import Drive, Manual, Text
-from driveblocks.maps.nodes import Entries, Items, Node, Scalar
+from driveblocks.maps.nodes import Entries, Items, Node, Scalar, told
 from driveblocks.maps.problem import Place, Report
 from driveblocks.maps.shape import EntryOf, ListOf, Shape, keys_of, required_of
 
@@ -74,18 +73,9 @@ def _rows(node: Entries) -> tuple[Node, ...]:
 def _named(made: Entries, mine: tuple[Node, ...]) -> tuple[Scalar, Node]:
     """Documents of both maps; of the base's only those that something which was taken over still names."""
     key, old = made.entries["documents"]
-    named = {*_words("document", made), *(name for row in mine for name in _words("id", row))}
-    kept = tuple(row for row in _rows(made) if {*_words("id", row)} <= named)
+    named = {*told("document", made), *(name for row in mine for name in told("id", row))}
+    kept = tuple(row for row in _rows(made) if {*told("id", row)} <= named)
     return key, Items(kept, old.at) if isinstance(old, Items) else old
-
-
-def _words(key: str, node: Node) -> Iterator[str]:
-    """What a key says, anywhere in a tree."""
-    if isinstance(node, Items):
-        yield from (word for row in node.items for word in _words(key, row))
-    elif isinstance(node, Entries):
-        for name, (_, value) in node.entries.items():
-            yield from [value.text] if name == key and isinstance(value, Scalar) else _words(key, value)
 
 
 def _moved(node: Node, at: Place) -> Node:

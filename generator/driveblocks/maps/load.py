@@ -46,12 +46,11 @@ def loads(text: str, name: str) -> Drive:
 
 def _loaded(text: str, report: Report, path: Path | None = None) -> Drive:
     before = len(report.problems)
-    written = numbering.spaced(_based(nodes.parse(text, report), report, path))
-    root = numbering.wired(written, report)
+    root = numbering.wired(numbering.spaced(_based(nodes.parse(text, report), report, path)), report)
     drive: Drive | None = decode(Drive, root, report) if root is not None else None
     report.partial = len(report.problems) > before
     if drive is not None:
-        drive = numbering.noted(pair.apart(drive), written)
+        drive = pair.apart(drive)
         check.check(drive, report)
     report.raise_if_any()
     assert drive is not None  # noqa: S101  (a map that was not built has left a problem)

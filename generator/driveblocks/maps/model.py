@@ -759,7 +759,7 @@ class Storage(Entry):
         "enter_register: the word to write; where one bit stores, with the others as they must be", "0"
     )
     max_writes: Writes | None = option("how often the memory can be written", "100000")
-    add: Address | None = option("ram_address_bit: what to add to an address", "8000H")
+    add: Number | None = option("ram_address_bit: what to add to an address", "8000H")
     area: Word | None = option("ram_address_bit: the only area, or section, where it may be added", "function_codes")
     twins: tuple[Twin, ...] = option(
         "ram_twin: the registers that are there twice", "[{stored: 000EH, ram: 000DH}]", default=()
@@ -1282,8 +1282,6 @@ class Numbering(Entry):
     says: English | None = option("the manual's own words, where no example shows it", "the number minus 1 is sent")
     source: English = fact("where the manual says so", "section 5")
     document: Word | None = option(_SAYS_SO, "fieldbus_guide")
-    hexadecimal: bool = field(default=False, compare=False, repr=False)
-    """Whether the rows of the map write numbers so; the loader sees it."""
 
     def base(self, space: str) -> int:
         """The number whose address is 0 in a table of Modbus."""

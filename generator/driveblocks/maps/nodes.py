@@ -51,6 +51,15 @@ class Entries:
 Node = Scalar | Items | Entries
 
 
+def told(key: str, node: Node) -> Iterator[str]:
+    """What a key says, anywhere in a tree."""
+    if isinstance(node, Items):
+        yield from (word for row in node.items for word in told(key, row))
+    elif isinstance(node, Entries):
+        for name, (_, value) in node.entries.items():
+            yield from [value.text] if name == key and isinstance(value, Scalar) else told(key, value)
+
+
 def parse(text: str, report: Report, *, quick: bool = True, most: int = MAX_NODES) -> Node | None:
     """Return the root node, or None where the text is not YAML; mistakes go to the report. `most`: its values.
 

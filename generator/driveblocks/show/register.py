@@ -6,9 +6,8 @@ from rich.console import RenderableType
 from rich.padding import Padding
 
 from driveblocks.maps import view
-from driveblocks.maps.form import Span, address_text, bits_text, span_text, wire
+from driveblocks.maps.form import address_text, bits_text, span_text, wire, wire_text
 from driveblocks.maps.model import Area, Command, Drive, Register, Section, Step, Value
-from driveblocks.maps.numbering import named
 from driveblocks.meaning.pattern import of_condition
 from driveblocks.meaning.words import DOES, UNKNOWN, words
 from driveblocks.show.errata import corroborated
@@ -28,8 +27,7 @@ def page(drive: Drive, section: Section, row: Register, address: int) -> Iterato
         ("name", "(not used)" if row.unused else both(row.name, row.own)),
         ("printed", _printed(row)),
         ("one of", run),
-        ("address", f"{address_text(address)} = {wire(address)}"),
-        ("number", named(drive, Span(address, address)) if drive.numbering else None),
+        ("address", f"{wire_text(address)} = {wire(address)}"),
         ("use", None if row.unused else _ACCESS[row.access or section.access]),
         ("unit", _unit(row)),
         ("scale", _scale(row)),

@@ -94,7 +94,7 @@ def _lines(section: Section, marks: _Marks) -> Iterator[tuple[str, ...]]:
 def _cells(section: Section, row: Register) -> tuple[str, ...]:
     name = "(not used)" if row.unused else row.name or "(no name)"
     use = "" if row.unused else row.access or section.access
-    address, id_ = _ends(span_text(row.address), "-"), _ends(row.id or "", "..")
+    address, id_ = _ends(span_text(row.address)), _ends(row.id or "", "..")
     return address, id_, use, name, row.own, unit(row)
 
 
@@ -122,7 +122,9 @@ def unit(row: Register) -> str:
     return f"{row.scale.factor} {row.unit}{' *' if row.scale.when else ''}"
 
 
-def _ends(text: str, between: str) -> str:
-    """A range on two lines, so that the column stays as narrow as one address."""
+def _ends(text: str, between: str = "-") -> str:
+    """A range on two lines, so that the column stays as narrow as one address; what is sent is on the second."""
+    if between in text and "(" in text:
+        return text.replace(" (", "\n(")
     first, found, last = text.partition(between)
     return f"{first}{found}\n{last}" if found else text

@@ -8,6 +8,7 @@ from driveblocks.maps import view
 from driveblocks.maps.adu import number
 from driveblocks.maps.form import address_text, bits_text
 from driveblocks.maps.model import Area, Bit, Drive, Register, Use, Value
+from driveblocks.maps.numbering import at
 from driveblocks.meaning.quantity import of_row
 from driveblocks.meaning.status import status
 from driveblocks.meaning.words import words
@@ -47,6 +48,7 @@ def held(drive: Drive | None, address: int | None, word: int | None, *, writing:
     """What a drive's map says of an address and a word."""
     if drive is None or address is None:
         return Held(address, word, word)
+    address = at(drive, address)
     use: Use = "w" if writing else "r"
     row = drive.register_at(address, use)
     if row is not None:
