@@ -29,10 +29,13 @@ MAPS = ["mx2", "4xxxx", "hexadecimal"]
 TESTS = (access, parameter, register, request, standstill)
 _NUMBER = r"(?:[0-9A-F]{4}H|[1-9][0-9]{4,5})"
 _RUN = rf"{_NUMBER}(?:(?:-|, | and | or | to ){_NUMBER})*(?:\.[0-9A-F](?:-[0-9A-F])?)?"
-_BESIDE = re.compile(rf"{_RUN}\s+\(wire [^)]*\)|{_RUN}(?=.*\n\s*\(wire )|^\s*\(wire [^)]*\)", re.MULTILINE)
+_BESIDE = re.compile(rf"{_RUN}\s+\(wire\s[^)]*\)|{_RUN}(?=.*\n\s*\(wire )|^\s*\(wire [^)]*\)", re.MULTILINE)
 """A number with what is sent, in a column perhaps below it."""
 _ADDRESS = re.compile(r"(?<![#0-9A-F])[0-9A-F]{4}H")
-_OTHER = re.compile(r"(?:AND|bits|sub-function|data|=|_Test|_TestCoil|\(\* \d+:) ?[0-9A-F]{4}H|[0-9A-F]{4}H(?: is | = | +Loop-back)")
+_OTHER = re.compile(
+    r"(?:AND|bits|sub-function|data|=|_Test|_TestCoil|\(\* \d+:) ?[0-9A-F]{4}H"
+    r"|[0-9A-F]{4}H(?: is | = |: (?:not )?proven| +Loop-back)"
+)
 """Words, masks and names."""
 
 

@@ -6,7 +6,7 @@ from driveblocks.maps import references
 from driveblocks.maps.form import address_text, bits_text, said, span_text, written
 from driveblocks.maps.model import Bit, Corroboration, Drive, Entry, Erratum, ErrorCode, Register, Section, Text, Value
 from driveblocks.maps.plan import plan
-from driveblocks.maps.problem import Place, Report
+from driveblocks.maps.problem import Place, Report, line
 from driveblocks.maps.rules.reference import Known
 from driveblocks.maps.rules.unique import unique
 from driveblocks.maps.trust import TRUSTS, taken
@@ -151,7 +151,7 @@ def _errata(drive: Drive, report: Report) -> None:
     for erratum in drive.errata:
         first = seen.setdefault((erratum.about, erratum.where, erratum.printed), erratum)
         if first is not erratum:
-            wrong = f"this erratum repeats the one in line {first.at[0]}"
+            wrong = f"this erratum repeats the one in {line(first.at)}"
             report.add(erratum.at, wrong, "keep one of them")
         if erratum.printed == erratum.used and erratum.confidence == "certain":
             wrong = "this erratum uses what is printed, and is certain of it"

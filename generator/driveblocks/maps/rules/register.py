@@ -3,7 +3,7 @@
 from driveblocks.maps.factor import doubt
 from driveblocks.maps.form import Span, address_text, bits_text, is_bit, span_text
 from driveblocks.maps.model import Bit, Drive, Manual, Numbering, OtherScale, Range, Register, Scale, Value
-from driveblocks.maps.problem import Report
+from driveblocks.maps.problem import Report, line
 from driveblocks.maps.rules.condition import exclude
 from driveblocks.maps.rules.name import worded
 from driveblocks.maps.rules.unique import overlapping, unique
@@ -53,7 +53,7 @@ def _addresses(drive: Drive, report: Report) -> None:
         if earlier.address != later.address:
             taken.setdefault(id(later), (earlier, later))
     for earlier, later in taken.values():
-        wrong = f"address {span_text(later.address)} is taken by line {earlier.at[0]}"
+        wrong = f"address {span_text(later.address)} is taken by {line(earlier.at)}"
         right = "one row per address, or one with `access: r` and one with `w`; if the manual misprints it, use the "
         report.add(later.place("address"), wrong, f"{right}right one and `printed:`")
 
@@ -143,7 +143,7 @@ def _named(manual: Manual, entry: Register | Bit, what: str, unused: bool, repor
 
 def _bits(manual: Manual, row: Register, report: Report) -> None:
     for earlier, later in overlapping((bit.bit, bit) for bit in row.bits):
-        wrong = f"bit {bits_text(later.bit)} of {address_text(row.address.first)} is taken by line {earlier.at[0]}"
+        wrong = f"bit {bits_text(later.bit)} of {address_text(row.address.first)} is taken by {line(earlier.at)}"
         report.add(later.place("bit"), wrong, "one entry per bit")
     for bit in row.bits:
         _one_bit(manual, row, bit, report)
