@@ -181,8 +181,8 @@ def _items(shape: ListOf, base: Items, mine: Items | None, own: _Own) -> Items:
     said = mine.items if mine else ()
     last = {name: row for row in said if (name := _name(row, shape)) is not None}
     rows = [_both(shape.item, row, last.get(_name(row, shape) or ""), own) for row in base.items]
-    old = {_name(row, shape) for row in base.items} - {None}
-    new = [row for row in said if _name(row, shape) not in old or last[_name(row, shape)] is not row]
+    old = {_name(row, shape) for row in base.items}
+    new = [row for row in said if (name := _name(row, shape)) is None or name not in old or last[name] is not row]
     return Items((*rows, *new), mine.at if mine else base.at)
 
 
