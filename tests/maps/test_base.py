@@ -10,7 +10,7 @@ from driveblocks.maps.model import Drive
 from driveblocks.maps.problem import MapError
 
 BASE = (Path(__file__).parents[2] / "generator/driveblocks/maps/skeleton.yaml").read_text(encoding="utf-8")
-HEAD = """format: 1
+HEAD = """format: 2
 base: acme
 prefix: BEST
 family: {en: Best 200}
@@ -126,7 +126,7 @@ def test_a_base_that_is_not_there_or_not_good(tmp_path: Path) -> None:
     (tmp_path / "acme.yaml").unlink()
     assert wrong(file)[0].startswith("2:7: there is no map acme.yaml beside this one")
     bad = tmp_path / "acme.yaml"
-    write(tmp_path, base=BASE.replace("format: 1", "format: 2"))
+    write(tmp_path, base=BASE.replace("format: 2", "format: 3"))
     assert wrong(file)[0].startswith(f"{bad}:3:9: ")
     write(tmp_path, base=HEAD)
     assert wrong(file)[0].startswith("2:7: acme.yaml has a base itself")

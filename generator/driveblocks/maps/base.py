@@ -116,7 +116,11 @@ def _cut(node: Node, path: list[str], shape: Shape) -> Node | None:
     """A tree without what a path leads to; None where it leads nowhere."""
     if isinstance(node, Entries) and isinstance(shape, EntryOf) and path[0] in node.entries:
         key, value = node.entries[path[0]]
-        inner = _cut(value, path[1:], keys_of(shape.cls)[path[0]].shape) if path[1:] else None
+        inner = (
+            _cut(value, path[1:], keys_of(shape.cls)[path[0]].shape)
+            if path[1:] and path[0] in keys_of(shape.cls)
+            else None
+        )
         if path[1:] and inner is None:
             return None
         rest = {name: each for name, each in node.entries.items() if inner is not None or name != path[0]}
@@ -170,7 +174,9 @@ def _entries(shape: EntryOf, base: Entries, mine: Entries | None, own: _Own) -> 
     known, said = keys_of(shape.cls), mine.entries if mine else {}
     entries = {}
     for key, (name, value) in base.entries.items():
-        if key != "document" or "source" not in said or key in said:
+        if key not in known:
+            entries[key] = (name, said[key][1] if key in said else value)
+        elif key != "document" or "source" not in said or key in said:
             entries[key] = (name, _both(known[key].shape, value, said[key][1] if key in said else None, own))
     entries |= {key: each for key, each in said.items() if key not in base.entries}
     return Entries(entries if "source" in said else _sourced(shape, entries, own), mine.at if mine else base.at)

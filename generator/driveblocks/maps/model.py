@@ -1293,7 +1293,7 @@ class Numbering(Entry):
 class Drive(Entry):
     """A whole map: one drive family."""
 
-    format: Literal[1] = fact("version of this format", "1")
+    format: Literal[2] = fact("version of this format", "2")
     base: Word | None = option(
         "the map of a sister model, by the name of its file, where this one says only what is different",
         "rockwell_powerflex_4",
@@ -1442,6 +1442,16 @@ class Drive(Entry):
         kept = {use: [pair for pair in rows if id(pair[1]) not in hidden["r" if use == "w" else "w"]] for use in hidden}
         return {use: ([row.address.first for _, row in some], some) for use, some in kept.items()}
 
+
+RESERVED: dict[type, tuple[str, ...]] = {
+    Setting: ("display",),
+    Value: ("display",),
+    Serial: ("pins",),
+    Fault: ("causes", "remedies"),
+}
+"""Keys that nothing reads yet: texts on the keypad, the pins of the connector, what helps against a fault."""
+RESERVED_FACT = ("printed", "rung")
+"""The same of all that has a `source`: the printed cell, and how far it can be trusted."""
 
 Known = TypeVar("Known")
 

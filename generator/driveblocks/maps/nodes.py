@@ -169,7 +169,7 @@ def _document(events: _Events) -> Node | None:
     events.next()  # the stream
     start = events.next()
     if isinstance(start, yaml.StreamEndEvent):
-        events.stop(start, "the file is empty", "a map starts with `format: 1`")
+        events.stop(start, "the file is empty", "a map starts with `format: 2`")
     _directives(events, start)
     root = _node(events, events.next(), 0)
     events.next()  # the document's end
