@@ -46,9 +46,7 @@ def loads(text: str, name: str) -> Drive:
 
 def _loaded(text: str, report: Report, path: Path | None = None) -> Drive:
     before, parsed = len(report.problems), nodes.parse(text, report)
-    root = numbering.wired(
-        numbering.spaced(_based(older.renewed(parsed), report, path)), report
-    )
+    root = numbering.wired(numbering.spaced(_based(older.renewed(parsed), report, path)), report)
     drive: Drive | None = decode(Drive, root, report) if root is not None else None
     report.partial = len(report.problems) > before
     if drive is not None:

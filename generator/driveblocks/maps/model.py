@@ -44,7 +44,7 @@ Shows = Literal["running", "reverse", "at_speed", "zero_speed", "ready", "warnin
 Measure = Literal[
     "output_frequency", "output_current", "output_voltage", "dc_bus_voltage", "output_power",
     "output_speed", "output_torque", "relative_power", "drive_temperature", "motor_temperature", "operating_time",
-    "energy",
+    "energy", "motor_torque",
 ]  # fmt: skip
 """What a register can show on a pin of the drive block."""
 OpenScale = Literal["FrequencyScale", "CurrentScale", "VoltageScale", "DcVoltageScale", "PowerScale"]
@@ -497,7 +497,10 @@ class OtherScale(Entry):
     """Another factor of a measure, which holds while something else is true: decimals or a unit by a register."""
 
     factor: Factor = fact("engineering units per count", "0.1")
-    when: Condition = fact("holds only while this is true", "{register: 211FH, bit: 8-F, equals: 1}")
+    when: Condition | None = option(
+        "holds only while this is true; left out of the last, which holds while no other does",
+        "{register: 211FH, bit: 8-F, equals: 1}",
+    )
     source: English = fact("where the manual states or proves it", "table of monitors, 211FH")
     document: Word | None = option(_SAYS_SO, "fieldbus_guide")
 
@@ -512,7 +515,7 @@ class Scale(Entry):
     when: Condition | None = option("holds only while this is true", "{register: 000FH, bit: 0, equals: 0}")
     otherwise: tuple[OtherScale, ...] = option(
         "the other factors of a measure, each with what it holds for; no two conditions may hold at once, and where "
-        "none does the measure is not valid; simulated drives have the first",
+        "none does, but for a last one without `when`, the measure is not valid; simulated drives have the first",
         "[{factor: 0.1, when: {register: 211FH, bit: 8-F, equals: 1}, source: ...}]",
         default=(),
     )

@@ -209,8 +209,8 @@ def decoders(drive: Drive) -> Iterator[Row]:
 def scales(drive: Drive) -> Iterator[Row]:
     """One per register with a scale."""
     for section, row in drive.registers():
-        if row.scale is not None and row.unit is not None:
-            named = _register(drive, section, row, UNIT_NAMES[row.unit])
+        if row.scale is not None:
+            named = _register(drive, section, row, UNIT_NAMES.get(row.unit or "", ""))
             kind = "DINT" if row.signed else "UDINT" if row.words else "UINT"
             yield replace(named, quantity=of_row(row, row.address.first), kind=kind)
 

@@ -115,11 +115,9 @@ def _value(mark: str, value: Value) -> tuple[str, ...]:
 
 def unit(row: Register) -> str:
     """The unit of a register as `0.1 V` for one count, `V ?` where the manual gives no scale, `*` with a condition."""
-    if row.unit is None:
-        return ""
     if row.scale is None:
-        return f"{row.unit} ?"
-    return f"{row.scale.factor} {row.unit}{' *' if row.scale.when else ''}"
+        return f"{row.unit} ?" if row.unit else ""
+    return f"{row.scale.factor} {row.unit or ''}".rstrip() + " *" * (row.scale.when is not None)
 
 
 def _ends(text: str, between: str = "-") -> str:

@@ -57,8 +57,8 @@ def suffixes(row: Register) -> Iterator[str]:
     """The blocks that a register has: a decoder, a scale."""
     if row.values or any(bit.name and not bit.unused for bit in row.bits):
         yield ""
-    if row.scale is not None and row.unit is not None:
-        yield names.UNIT_NAMES[row.unit]
+    if row.scale is not None:
+        yield names.UNIT_NAMES.get(row.unit or "", "")
 
 
 class _Taken:

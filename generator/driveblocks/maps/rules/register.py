@@ -169,9 +169,6 @@ def _width(bits: Span) -> str:
 def _scale(row: Register, report: Report) -> None:
     if row.scale is None:
         return
-    if row.unit is None:
-        right = "add `unit`, or leave the scale out when the manual gives none"
-        report.miss(row.place("scale"), "a scale without a unit", right)
     factors: list[Scale | OtherScale] = [row.scale, *row.scale.otherwise]
     for one in factors:
         if one.factor <= 0:
@@ -193,6 +190,9 @@ def _otherwise(row: Register, scale: Scale, report: Report) -> None:
         report.add(scale.place("otherwise"), "a value of 32 bits has one factor", "leave `otherwise` out")
     if scale.when is None:
         report.miss(scale.at, "a factor that always holds has others beside it", "add `when` to it, too")
+    for one in scale.otherwise[:-1]:
+        if one.when is None:
+            report.miss(one.at, "a factor that holds while no other does is not the last", "add `when`, or move it")
     for number, later in enumerate(scale.conditions):
         if not all(exclude(later, earlier) for earlier in scale.conditions[:number]):
             wrong = "this may hold together with the condition of another factor"
