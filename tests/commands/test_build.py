@@ -294,7 +294,7 @@ def test_a_map_of_the_folder_that_has_changed_is_built_anew() -> None:
 
 def test_a_map_of_the_folder_that_is_bad_is_reported() -> None:
     good("one.yaml", "-o", "out")
-    put("one.yaml", EXAMPLE.replace("format: 1", "format: 2"))
+    put("one.yaml", EXAMPLE.replace("format: 2", "format: 3"))
     said = refused("two.yaml", "-o", "out")
     assert said.startswith("one.yaml:")
     assert said.endswith("out was built from one.yaml as well; --only builds without\n")
@@ -330,7 +330,7 @@ def test_shipped_maps_go_by_their_names() -> None:
 
 def test_a_bad_map_leaves_the_old_output_whole() -> None:
     good("one.yaml", "-o", "out")
-    put("two.yaml", EXAMPLE.replace("format: 1", "format: 2"))
+    put("two.yaml", EXAMPLE.replace("format: 2", "format: 3"))
     assert "two.yaml:" in refused("one.yaml", "two.yaml", "-o", "out")
     assert "two.yaml:" in refused("two.yaml", "-o", "new/out")
 

@@ -125,12 +125,12 @@ def test_an_address_has_its_table_and_a_span_its_form() -> None:
     drive["registers"][0]["name"] = other["registers"][0]["name"] = ""
     other["registers"][0]["access"] = "r"
     assert [str(each) for each in facts.compared(drive, other)] == [
-        "coil 0000H: access rw, now r",
+        "coil 0001H (wire 0000H): access rw, now r",
         "coil Reserved coil: access r, now rw",
-        "fault_report: registers 0011H, now 0011H-0013H",
-        "operation, command stop: register coil 0000H, now coil 0002H",
-        "operation, status running, any coil 000EH: is gone",
-        "operation, status running, any 000EH: is new",
+        "fault_report: registers 0012H (wire 0011H), now 0012H-0014H (wire 0011H-0013H)",
+        "operation, command stop: register coil 0001H (wire 0000H), now coil 0003H (wire 0002H)",
+        "operation, status running, any coil 000FH (wire 000EH): is gone",
+        "operation, status running, any 000FH (wire 000EH): is new",
     ]
 
 

@@ -10,7 +10,7 @@ from driveblocks.maps.model import Drive
 from driveblocks.maps.problem import MapError
 
 BASE = (Path(__file__).parents[2] / "generator/driveblocks/maps/skeleton.yaml").read_text(encoding="utf-8")
-HEAD = """format: 1
+HEAD = """format: 2
 base: acme
 prefix: BEST
 family: {en: Best 200}
@@ -126,7 +126,7 @@ def test_a_base_that_is_not_there_or_not_good(tmp_path: Path) -> None:
     (tmp_path / "acme.yaml").unlink()
     assert wrong(file)[0].startswith("2:7: there is no map acme.yaml beside this one")
     bad = tmp_path / "acme.yaml"
-    write(tmp_path, base=BASE.replace("format: 1", "format: 2"))
+    write(tmp_path, base=BASE.replace("format: 2", "format: 3"))
     assert wrong(file)[0].startswith(f"{bad}:3:9: ")
     write(tmp_path, base=HEAD)
     assert wrong(file)[0].startswith("2:7: acme.yaml has a base itself")
@@ -153,3 +153,62 @@ def test_a_document_of_the_base_goes_with_the_last_that_names_it(tmp_path: Path)
     assert "nothing refers to document `mine`" in "".join(
         wrong(write(tmp_path, "documents: [{id: mine, title: Mine, publisher: Best}]\n"))
     )
+
+
+PATH = """operation:
+  states: [{name: ready, register: 2000H, mask: 0006H, equals: 0002H, source: table 2},
+    {name: waits, register: 2000H, mask: 0006H, equals: 0004H, source: table 2}]
+"""
+FULL = (
+    BASE.replace("operation:\n", PATH, 1)
+    .replace("{bit: 1-F, unused: true}", "{bit: 1, name: Ready}, {bit: 2, name: Waits}")
+    .replace("value: 1, source: table 1}\n", "value: 1, source: table 1, first: [{register: 1000H, value: 3, until: "
+      "ready}, {register: 1000H, value: 3, until: waits}]}\n", 1)
+    .replace("notices: []", """notices:
+  - {kind: hazard, text: {en: It starts by itself.}, source: page 3}
+  - {kind: hazard, text: {en: It is hot.}, source: page 4}""")
+    .replace("errata: []", """errata:
+  - {about: [prose], where: page 3, printed: a, used: b, why: c, confidence: open, measured: false}
+  - {about: [prose], where: page 4, printed: d, used: e, why: f, confidence: open, measured: false}""")
+)  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("more", "left"),
+    [
+        ("without: [operation > commands > run_forward > first > ready]\n", "ready waits | waits | hot starts | 3 4"),
+        (
+            "without: [operation > states > waits, operation > commands > run_forward > first > waits, "
+            "notices > It is hot., errata > page 3]\n",
+            "ready | ready | starts | 4",
+        ),
+        (
+            "without: [notices > It is hot.]\nnotices: [{kind: hazard, text: {en: It hums.}, source: page 9}]\n",
+            "ready waits | ready waits | hums starts | 3 4",
+        ),
+        ("errata: []\n", "ready waits | ready waits | hot starts |"),
+    ],
+)
+def test_whatever_is_taken_over_can_be_left_out(tmp_path: Path, more: str, left: str) -> None:
+    best = load(write(tmp_path, more, FULL))
+    states = " ".join(one.name for one in best.operation.states)
+    steps = " ".join(one.until or "" for one in best.operation.commands[0].first)
+    notices = " ".join(
+        sorted(one.text.en.rstrip(".").split()[-1 if "It starts" not in one.text.en else 1] for one in best.notices)
+    )
+    errata = " ".join(one.where.removeprefix("page ") for one in best.errata)
+    assert f"{states} | {steps} | {notices} | {errata}".rstrip() == left
+
+
+def test_a_code_is_one_however_it_is_spelled(tmp_path: Path) -> None:
+    best = made(tmp_path, "faults: {codes: [{code: 1, name: Overload}]}\nerrors: {codes: [{code: 02H, name: Other}]}\n")
+    assert [(code.code, code.name) for code in best.faults.codes] == [(1, "Overload")]
+    assert [(code.code, code.name) for code in best.errors.codes] == [(2, "Other")]
+
+
+def test_a_mistake_in_what_is_taken_over_names_both_files(tmp_path: Path) -> None:
+    left_out = wrong(write(tmp_path, "without: [sections > status > registers > 2001H]\n"))
+    assert any(each.startswith("2:7: taken over from acme.yaml:") for each in left_out)
+    assert any("unless what `without` leaves out in line 6 is to stay" in each for each in left_out)
+    taken = "sections: [{id: status, registers: [{address: 2003H, id: P1.07, name: Again}]}]\n"
+    assert any("id `P1.07` is taken by line 36 of acme.yaml" in each for each in wrong(write(tmp_path, taken)))

@@ -16,7 +16,7 @@ def shelf(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     folder = tmp_path / "shelf"
     folder.mkdir()
     for stem, prefix in MAPS.items():
-        (folder / f"{stem}.yaml").write_text(f"# a comment\nformat: 1\nprefix: {prefix}\n", encoding="utf-8")
+        (folder / f"{stem}.yaml").write_text(f"# a comment\nformat: 2\nprefix: {prefix}\n", encoding="utf-8")
     monkeypatch.setattr(catalog, "folder", lambda: folder)
     here = tmp_path / "here"
     here.mkdir()

@@ -19,7 +19,7 @@ def changed(tmp_path: Path, old: str, new: str) -> Path:
 
 
 def test_two_maps_of_one_prefix_are_refused(tmp_path: Path) -> None:
-    other = changed(tmp_path, "format: 1", "format: 1")
+    other = changed(tmp_path, "format: 2", "format: 2")
     with pytest.raises(MapError, match="prefix EX100 is taken"):
         collection.read([EXAMPLE, other])
 

@@ -127,7 +127,7 @@ def test_a_block_device(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None
 @pytest.mark.parametrize("where", ["stat", "open", "read"])
 def test_every_step_of_reading_may_be_denied(where: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     path = tmp_path / "map.yaml"
-    path.write_text("format: 1\n")
+    path.write_text("format: 2\n")
 
     def denied(*_: object, **__: object) -> None:
         raise PermissionError(13, "Permission denied")

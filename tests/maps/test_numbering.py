@@ -12,10 +12,10 @@ from tests.maps.test_base import BASE
 from driveblocks.cli import app
 from driveblocks.desk.run.drives import Named
 from driveblocks.maps import catalog, lookup
-from driveblocks.maps.form import Span
+from driveblocks.maps.form import Span, address_text, said, span_text
 from driveblocks.maps.load import load, loads
 from driveblocks.maps.model import Drive
-from driveblocks.maps.numbering import named
+from driveblocks.maps.numbering import at
 from driveblocks.maps.problem import MapError
 
 RULES: dict[str, tuple[str, Callable[[int], str]]] = {
@@ -81,7 +81,8 @@ def test_a_register_is_shown_with_its_number(tmp_path: Path) -> None:
     file = tmp_path / "acme.yaml"
     file.write_text(numbered("4xxxx"), encoding="utf-8")
     shown = CliRunner().invoke(app, ["show", file.as_posix(), "1001H"])
-    assert re.search(r"^ *number +44098$", shown.stdout, re.MULTILINE)
+    assert re.search(r"^ACME  44098 \(wire 1001H\)$", shown.stdout, re.MULTILINE)
+    assert re.search(r"^ *address +1001H = 4097$", shown.stdout, re.MULTILINE)
 
 
 @pytest.mark.parametrize(("word", "told"), [("44098", "1001H = 4097"), ("4098", "1001H"), ("40000", None)])
@@ -110,21 +111,25 @@ def test_each_table_has_its_own_numbers() -> None:
     assert any("1 is no number of a coil" in each for each in wrong(text))
     map_ = loads(text.replace("first: 40001", "first: 40001, coil: 1"), "map")
     row = next(row for _, row in map_.registers() if row.name == "First coil")
-    assert named(map_, row.address) == "coil 1"
+    about = text.replace("first: 40001", "first: 40001, coil: 1").replace("about: [faults]", "about: [faults, coil 1]")
+    assert said(loads(about, "map").absent[0].about[1]) == "coil 1 (wire 0000H)"
+    assert span_text(row.address) == "coil 1 (wire 0000H)"
     assert lookup.find(map_, "coil 1")[0].entry == lookup.find(map_, "coil 0000H")[0].entry == row
 
 
 @pytest.mark.parametrize(("name", "told"), [("4xxxx", "44097-44098"), ("hexadecimal", "1001H-1002H")])
 def test_registers_are_named_as_the_map_writes_their_numbers(name: str, told: str) -> None:
-    assert named(loads(numbered(name), "map"), Span(0x1000, 0x1001)) == told
-    assert named(loads(BASE, "map"), Span(0x1000, 0x1001)) == "1000H-1001H"
+    map_ = loads(numbered(name), "map")
+    assert span_text(Span(at(map_, 0x1000), at(map_, 0x1001))) == f"{told} (wire 1000H-1001H)"
+    assert address_text(at(map_, 0x1000), ".3") == f"{told.partition('-')[0]}.3 (wire 1000H)"
+    assert at(loads(BASE, "map"), 0x1000) == 0x1000
 
 
 def test_the_simulator_says_numbers_where_the_manual_has_them() -> None:
-    shown = CliRunner().invoke(app, ["show", "mx2", "coil 0001H"]).stdout
+    shown = CliRunner().invoke(app, ["show", "mx2", "coil 0002H"]).stdout
+    assert re.search(r"^MX2  coil 0002H \(wire 0001H\)$", shown, re.MULTILINE)
     assert re.search(r"^ *address +coil 0001H = 1$", shown, re.MULTILINE)
-    assert re.search(r"^ *number +coil 0002H$", shown, re.MULTILINE)
     path = catalog.resolve("mx2")
     told = " ".join(line.strip() for line in Named(path, load(path), 1).told())
-    assert "reads 0 until written (the manual's numbers): 0002H-0006H, 0011H," in told
-    assert ", coil 0002H-0003H, " in told
+    assert "reads 0 until written: 0002H-0006H (wire 0001H-0005H), 0011H (wire 0010H)," in told
+    assert ", coil 0002H-0003H (wire 0001H-0002H), " in told

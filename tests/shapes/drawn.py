@@ -375,9 +375,9 @@ def serial(sheet: Sheet) -> Row:
     source: Row = {"source": "section 1"}
     if sheet.maybe(0.7):
         rates = sorted(sheet.chance.sample((4800, 9600, 19200, 38400, 57600, 115200), 3))
-        codes = [{"code": code, "baud": rate} for code, rate in enumerate(rates)]
+        rows = [{"code": code, "baud": rate} for code, rate in enumerate(rates)]
         setting = sheet.setting(2, "Bit rate", default="1", needed=why, range={"min": 0, "max": 2})
-        made["baud"] = {"setting": setting, "default": 1, "codes": codes} | source
+        made["baud"] = {"setting": setting, "default": 1, "codes": rows} | source
     if sheet.maybe(0.7):
         forms = enumerate((("none", 2), ("even", 1), ("odd", 1), ("none", 1)))
         codes = [
@@ -497,7 +497,7 @@ def draw(seed: int) -> Row:
 
 def head(sheet: Sheet, seed: int) -> Row:
     """Who makes it, and how its manual numbers registers."""
-    made: Row = {"format": 1, "prefix": f"DR{seed}", "id_forms": ["A9.99"]}
+    made: Row = {"format": 2, "prefix": f"DR{seed}", "id_forms": ["A9.99"]}
     made |= {"vendor": sheet.text("Drawn"), "family": sheet.text(f"Drawn {seed}")}
     made["manual"] = {"language": sheet.language, "title": sheet.text("Manual"), "publisher": sheet.text("Drawn")}
     if sheet.maybe(0.2):

@@ -354,6 +354,14 @@ def test_a_register_chooses_the_decimals_of_a_measure(engine: Engine, tmp_path: 
     model.words[0x2004] = 0x0300
     stand.run(1000)
     assert stand.pin("Diagnosis.OutputCurrentValid") is False
+    last = ", when: {register: 2004H, bit: 8-F, equals: 0}, source"
+    assert last in text
+    other = Stand(engine, text.replace(last, ", source").replace("DEC", "DEO", 1), model)
+    other.run(4000)
+    assert (other.pin("Diagnosis.OutputCurrentValid"), other.pin("OutputCurrentA")) == (True, 1234.0)
+    model.words[0x2004] = 0x0100
+    other.run(1000)
+    assert other.pin("OutputCurrentA") == pytest.approx(123.4, rel=1e-6)
     file = tmp_path / "decimals.yaml"
     file.write_text(text, encoding="utf-8")
     frame = ["01 03 02 04 D2 3A D9", "--request", "01 03 20 03 00 01 7F CA"]

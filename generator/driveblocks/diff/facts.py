@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from driveblocks.diff.change import Change, Kind
-from driveblocks.maps.form import SPACES, Span, address_text, bits_text, span_text
+from driveblocks.maps.form import SPACES, Numbered, Span, address_text, bits_text, span_text
 
 KNOWN_BY = ("id", "does", "code", "value", "bit", "name", "what", "where", "address", "register", "measure", "shows")
 """By what an entry of a list is found again, the surest first."""
@@ -32,23 +32,29 @@ def compared(old: dict[str, Any], new: dict[str, Any]) -> Iterator[Change]:
     """What differs between two maps as `maps.view` shows them."""
     for key in dict.fromkeys((*old, *new)):
         if key not in OWN:
-            yield from _value((key,), *(_readable(each.get(key)) for each in (old, new)))
+            yield from _value((key,), *(_readable(each.get(key), each.get("numbering")) for each in (old, new)))
 
 
-def _readable(value: Any, key: str = "") -> Any:
+def _readable(value: Any, numbers: dict[str, Any] | None, key: str = "") -> Any:
     """The same with addresses and spans as a map writes them, each address with its table."""
     if isinstance(value, list):
-        return [_readable(each, key) for each in value]
+        return [_readable(each, numbers, key) for each in value]
     if not isinstance(value, dict):
         return value
     ends = [value[end] for end in ("first", "last") if isinstance(value.get(end), int)]
     if len(ends) == len(value) == 2:
-        return bits_text(Span(*ends)) if key in BITS else span_text(Span(*ends))
+        return bits_text(Span(*ends)) if key in BITS else span_text(Span(_at(numbers, "holding", ends[0]), ends[1]))
     places = [each for each in (*ADDRESSES, *(("first", "last") if len(ends) == 2 else ())) if each in value]
     space = str(value["space"]) if places and value.get("space") in SPACES else "holding"
-    rest = {name: _readable(one, name) for name, one in value.items() if space == "holding" or name != "space"}
-    told = {each: address_text(SPACES[space] + value[each]) for each in places if isinstance(value[each], int)}
+    rest = {name: _readable(one, numbers, name) for name, one in value.items() if space == "holding" or name != "space"}
+    told = {each: address_text(_at(numbers, space, value[each])) for each in places if isinstance(value[each], int)}
     return rest | told
+
+
+def _at(numbers: dict[str, Any] | None, space: str, address: int) -> int:
+    """An address with the manual's number, where the map numbers registers."""
+    at = SPACES[space] + address
+    return Numbered(at, numbers.get(space, numbers["first"]), hexadecimal=numbers["hexadecimal"]) if numbers else at
 
 
 def _value(path: tuple[str, ...], old: Any, new: Any) -> Iterator[Change]:
@@ -95,7 +101,8 @@ def _name(entry: dict[str, Any], key: str) -> str | None:
 
 def _named(list_: str, entry: dict[str, Any]) -> str:
     """An entry of a list as a person calls it: by its id or number, and by its name; a coil is called one."""
-    table, _, number = str(entry.get("address", "")).rpartition(" ")
+    first, _, rest = str(entry.get("address", "")).partition(" ")
+    table, number = (first, rest) if first in SPACES else ("", f"{first} {rest}".rstrip())
     word = table or SINGULAR.get(list_, list_)
     known = next((key for key in KNOWN_BY if _name(entry, key) is not None), "")
     found = [number if known == "address" else _shown(known, entry[known])] if known else []

@@ -24,6 +24,7 @@ SAYS = {
     "OutputSpeedRpm": "output speed, without its sign", "OutputTorquePercent": "torque, of the rated torque",
     "RelativePowerPercent": "output power, of the rated power", "DriveTemperatureDegC": "temperature of the drive",
     "MotorTemperatureDegC": "temperature of the motor", "OperatingTimeH": "operating hours", "EnergyKWh": "energy",
+    "MotorTorqueNm": "torque of the motor",
     **{f"{name}Valid": f"`{name}{unit}` is fresh, and its scale known" for name, unit, _ in PINS.values()},
 }  # fmt: skip
 """Where a comment leans on the line above it."""

@@ -9,7 +9,7 @@ from typing import Any
 from driveblocks.docs import bus, chain, ladder, network, states, sto, timing
 from driveblocks.docs.members import members
 from driveblocks.docs.pins import Pin, pins
-from driveblocks.maps import inventory, rivals, trust
+from driveblocks.maps import inventory, references, rivals, trust
 from driveblocks.maps.form import address_text
 from driveblocks.maps.model import Absence, Drive, Erratum, Notice
 from driveblocks.meaning import conduct
@@ -368,7 +368,7 @@ def _open(drive: Drive, one: Absence) -> bool:
     """Whether a gap of the manual is about the line, commands, reference, a scale that a pin needs, or conduct."""
     told = {each.last.register for each in words(drive).commands} | {reference(drive).register}
     told |= {each.register for each in measures(drive) if not quantity(drive, each.register).factors}
-    about = {"serial", "operation", *CONDUCT, *(f"register {address_text(word)}" for word in told)}
+    about = {"serial", "operation", *CONDUCT, *map(references.of, told)}
     about |= {f"setting {each.id}" for each in settings(drive)}
     return not about.isdisjoint(one.about)
 
@@ -386,7 +386,7 @@ def _bears(drive: Drive, one: Erratum) -> bool:
     """Whether a misprint is about a word that the block reads or writes, or about a keypad setting."""
     told = {each.last.register for each in words(drive).commands} | {each.register for each in measures(drive)}
     told.add(reference(drive).register)
-    about = {f"register {address_text(word)}" for word in told} | {f"setting {each.id}" for each in settings(drive)}
+    about = {*map(references.of, told)} | {f"setting {each.id}" for each in settings(drive)}
     return not about.isdisjoint(one.about)
 
 

@@ -17,7 +17,7 @@ class Span:
     last: int
 
     def __iter__(self) -> Iterator[int]:
-        return iter(range(self.first, self.last + 1))
+        return iter(self.first + each for each in range(len(self)))
 
     def __len__(self) -> int:
         """How many numbers the range holds; none when it runs backwards."""
@@ -71,23 +71,90 @@ def wire(address: int) -> int:
     return address & 0xFFFF
 
 
-def address_text(address: int) -> str:
-    """Print an address as the manuals do: 38 -> 0026H; of another table than the holding registers with its name."""
+class Numbered(int):
+    """An address to which the manual gives a number: the number of address 0 of its table, and how it is written."""
+
+    first: int
+    hexadecimal: bool
+
+    def __new__(cls, address: int, first: int = 0, *, hexadecimal: bool = False) -> "Numbered":
+        """Equal to the address in all but its text."""
+        made = super().__new__(cls, address)
+        made.first, made.hexadecimal = first, hexadecimal
+        return made
+
+    def __add__(self, count: int) -> "Numbered":
+        """Another address of the same table."""
+        return Numbered(int(self) + int(count), self.first, hexadecimal=self.hexadecimal)
+
+    __radd__ = __add__
+
+    def __sub__(self, other: int) -> int:
+        """Another address of the same table, or how many lie between two."""
+        return int(self) - int(other) if isinstance(other, Numbered) else self + -other
+
+    @property
+    def number(self) -> str:
+        """What the manual writes."""
+        number = wire(self) + self.first
+        return f"{number:04X}H" if self.hexadecimal else str(number)
+
+
+class Wired(str):
+    """What the map says with the manual's numbers, in the words for addresses; and the number of address 0 there."""
+
+    said: str
+    first: int
+
+    def __new__(cls, text: str, said: str = "", first: int = 0) -> "Wired":
+        """Equal to the text with addresses."""
+        made = super().__new__(cls, text)
+        made.said, made.first = said, first
+        return made
+
+
+def said(reference: str) -> str:
+    """A reference for a person: as the map has it, with what is sent beside it."""
+    own = written(reference)
+    return own if own == reference else f"{own} (wire {reference.rpartition(' ')[2]})"
+
+
+def written(reference: str) -> str:
+    """A reference as the map has it."""
+    return reference.said if isinstance(reference, Wired) else reference
+
+
+def wire_text(address: int) -> str:
+    """Print what is sent for an address: 38 -> 0026H; of another table than the holding registers with its name."""
     if address <= 0xFFFF:
         return f"{address:04X}H"
     return f"{space_of(address)} {wire(address):04X}H"
 
 
+def address_text(address: int, part: str = "") -> str:
+    """Print an address, or a part of it, for a person: 0026H; or the manual's number, with what is sent beside it."""
+    sent = wire_text(address)
+    if not isinstance(address, Numbered):
+        return sent + part
+    table, space, number = sent.rpartition(" ")
+    return f"{table}{space}{address.number}{part} (wire {number})"
+
+
 def address_name(address: int) -> str:
     """An address as a part of an identifier: 0026H, Coil0001H."""
-    table, _, number = address_text(address).rpartition(" ")
+    table, _, number = wire_text(address).rpartition(" ")
     return f"{table.capitalize()}{number}"
 
 
 def span_text(span: Span) -> str:
-    """Print an address range as a map does: 0106H-0125H, or one address."""
-    first = address_text(span.first)
-    return first if len(span) == 1 else f"{first}-{address_text(wire(span.last))}"
+    """Print an address range as `address_text` does: 0106H-0125H, or one address."""
+    if len(span) == 1:
+        return address_text(span.first)
+    last = wire_text(wire(span.last))
+    if not isinstance(span.first, Numbered):
+        return f"{wire_text(span.first)}-{last}"
+    end = Numbered(span.last, span.first.first, hexadecimal=span.first.hexadecimal)
+    return f"{address_text(span.first, f'-{end.number}')[:-1]}-{last})"
 
 
 def bits_text(span: Span) -> str:
@@ -106,13 +173,14 @@ def _number(text: str) -> int:
 
 def _address(text: str) -> int:
     space, _, number = text.rpartition(" ")
-    return SPACES[space or "holding"] + int(number[:-1], 16)
+    address = SPACES[space or "holding"] + int(number[:-1], 16)
+    return Numbered(address, text.first, hexadecimal=text.said.endswith("H")) if isinstance(text, Wired) else address
 
 
 def _addresses(text: str) -> Span:
     first, _, last = text.partition("-")
-    start = _address(first)
-    return Span(start, start - wire(start) + _address(last) if last else start)
+    start = _address(Wired(first, text.said, text.first) if isinstance(text, Wired) else first)
+    return Span(start, start + _address(last) - wire(start) if last else start)
 
 
 def _span(text: str, digit: Callable[[str], int]) -> Span:
@@ -187,7 +255,10 @@ REGISTER_WORD = _form(
     numeric=True,
 )
 REFERENCE = _form(
-    "reference", r"[a-z_]+( \S+)?", str, "write what the entry is about, such as `register 0220H` or `bit 0015H.7`"
+    "reference",
+    r"[a-z_]+( \S+)?",
+    lambda said: said,
+    "write what the entry is about, such as `register 0220H` or `bit 0015H.7`",
 )
 ID_FORM = _form(
     "id form",

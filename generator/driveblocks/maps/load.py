@@ -4,7 +4,7 @@ import re
 from functools import lru_cache
 from pathlib import Path
 
-from driveblocks.maps import base, catalog, check, nodes, numbering, pair, source
+from driveblocks.maps import base, catalog, check, nodes, numbering, older, pair, source
 from driveblocks.maps.decode import build, decode
 from driveblocks.maps.form import WORD
 from driveblocks.maps.model import Drive
@@ -45,14 +45,14 @@ def loads(text: str, name: str) -> Drive:
 
 
 def _loaded(text: str, report: Report, path: Path | None = None) -> Drive:
-    before = len(report.problems)
-    written = numbering.spaced(_based(nodes.parse(text, report), report, path))
-    root = numbering.wired(written, report)
+    before, parsed = len(report.problems), nodes.parse(text, report)
+    root = numbering.wired(numbering.spaced(_based(older.renewed(parsed), report, path)), report)
     drive: Drive | None = decode(Drive, root, report) if root is not None else None
     report.partial = len(report.problems) > before
     if drive is not None:
-        drive = numbering.noted(pair.apart(drive), written)
+        drive = pair.apart(drive)
         check.check(drive, report)
+    older.renewed(parsed, report)
     report.raise_if_any()
     assert drive is not None  # noqa: S101  (a map that was not built has left a problem)
     return drive

@@ -6,9 +6,9 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from driveblocks.maps import view
-from driveblocks.maps.form import SPACES, address_text, span_text
+from driveblocks.maps.form import SPACES, address_text, span_text, wire
 from driveblocks.maps.model import USES, Area, Bit, Drive, ErrorCode, Fault, Frame, Function, Register, Section, Setting
-from driveblocks.maps.numbering import numbered
+from driveblocks.maps.numbering import at, in_hex, numbered
 
 Found = Section | Register | Area | Bit | Fault | ErrorCode | Function | Setting | Frame
 
@@ -16,6 +16,8 @@ _ADDRESS = re.compile(r"(?:0X)?([0-9A-F]{1,4})H?")
 
 _TABLE = re.compile(r"(COIL|DISCRETE|INPUT) ([0-9A-F]{1,6})H?")
 """An address of another table than the holding registers, as maps write it; or a number of it, as manuals do."""
+
+_HEXADECIMAL = re.compile(r"[0-9A-F]{4}H")
 
 _DECIMAL = re.compile(r"[1-9][0-9]{3,4}")
 """An address as some PLCs want it, in decimal: 4096 is 1000H, unless there is a 4096H. Fewer digits are a code, too."""
@@ -39,25 +41,33 @@ def find(drive: Drive, word: str) -> list[Match]:
     upper = word.upper()
     found = [*_by_id(drive, upper)] if word else []
     if match := _TABLE.fullmatch(upper):
-        return [*_in_table(drive, match[1].lower(), match[2], hexadecimal=upper.endswith("H"))]
-    if re.fullmatch("[0-9]{1,6}", upper) and (at := numbered(drive, "holding", int(upper))) is not None:
-        found += _at_address(drive, at, spelled=True)
+        return [*_in_table(drive, match[1].lower(), match[2], upper.partition(" ")[2])]
     number = _number(upper)
+    own = _own(drive, "holding", upper)
+    found += [] if own is None else _at_address(drive, own, spelled=True)
     if number is not None:
         address = upper.startswith("0X") or len(upper.rstrip("H")) == 4
-        found += _at_address(drive, number, spelled=address)
+        found += _at_address(drive, number, spelled=address and not (own is not None and upper.endswith("H")))
         found += _by_code(drive, number, spelled=not address)
     if _DECIMAL.fullmatch(upper):
         found += _at_address(drive, int(upper), spelled=not any(match.spelled for match in found))
     return sorted(found, key=lambda match: not match.spelled)
 
 
-def _in_table(drive: Drive, space: str, text: str, *, hexadecimal: bool) -> Iterator[Match]:
-    """Coil 0003H is an address; coil 4 is a number where the manual numbers coils, else an address, too."""
-    at = None if hexadecimal or not text.isdecimal() else numbered(drive, space, int(text))
-    address = SPACES[space] + int(text, 16) if at is None else at
-    if address - SPACES[space] <= 0xFFFF:
-        yield from _at_address(drive, address, spelled=True)
+def _own(drive: Drive, space: str, upper: str) -> int | None:
+    """The address of what is written as the manual writes its numbers; None where it writes none so."""
+    if upper.isdecimal() and len(upper) <= 6:
+        return numbered(drive, space, int(upper))
+    return numbered(drive, space, int(upper[:-1], 16)) if _HEXADECIMAL.fullmatch(upper) and in_hex(drive) else None
+
+
+def _in_table(drive: Drive, space: str, text: str, upper: str) -> Iterator[Match]:
+    """Coil 4 is a number where the manual numbers coils, and so is coil 0004H where it does so in hexadecimal."""
+    own, sent = _own(drive, space, upper), SPACES[space] + int(text, 16)
+    addresses = [sent] if own is None else [own, sent] if upper.endswith("H") else [own]
+    for address in addresses:
+        if wire(address) == address - SPACES[space]:
+            yield from _at_address(drive, address, spelled=address == addresses[0])
 
 
 def _number(upper: str) -> int | None:
@@ -100,6 +110,7 @@ def _faults_by_id(drive: Drive, upper: str) -> Iterator[Match]:
 
 
 def _at_address(drive: Drive, address: int, *, spelled: bool) -> Iterator[Match]:
+    address = at(drive, address)
     again = address - (drive.storage.add or 0) if any(address in span for span in drive.ram_only) else address
     for row in filter(None, dict.fromkeys(drive.register_at(again, use) for use in USES)):
         yield _register(row, again, spelled=spelled)

@@ -44,7 +44,7 @@ Shows = Literal["running", "reverse", "at_speed", "zero_speed", "ready", "warnin
 Measure = Literal[
     "output_frequency", "output_current", "output_voltage", "dc_bus_voltage", "output_power",
     "output_speed", "output_torque", "relative_power", "drive_temperature", "motor_temperature", "operating_time",
-    "energy",
+    "energy", "motor_torque",
 ]  # fmt: skip
 """What a register can show on a pin of the drive block."""
 OpenScale = Literal["FrequencyScale", "CurrentScale", "VoltageScale", "DcVoltageScale", "PowerScale"]
@@ -497,7 +497,10 @@ class OtherScale(Entry):
     """Another factor of a measure, which holds while something else is true: decimals or a unit by a register."""
 
     factor: Factor = fact("engineering units per count", "0.1")
-    when: Condition = fact("holds only while this is true", "{register: 211FH, bit: 8-F, equals: 1}")
+    when: Condition | None = option(
+        "holds only while this is true; left out of the last, which holds while no other does",
+        "{register: 211FH, bit: 8-F, equals: 1}",
+    )
     source: English = fact("where the manual states or proves it", "table of monitors, 211FH")
     document: Word | None = option(_SAYS_SO, "fieldbus_guide")
 
@@ -512,7 +515,7 @@ class Scale(Entry):
     when: Condition | None = option("holds only while this is true", "{register: 000FH, bit: 0, equals: 0}")
     otherwise: tuple[OtherScale, ...] = option(
         "the other factors of a measure, each with what it holds for; no two conditions may hold at once, and where "
-        "none does the measure is not valid; simulated drives have the first",
+        "none does, but for a last one without `when`, the measure is not valid; simulated drives have the first",
         "[{factor: 0.1, when: {register: 211FH, bit: 8-F, equals: 1}, source: ...}]",
         default=(),
     )
@@ -759,7 +762,7 @@ class Storage(Entry):
         "enter_register: the word to write; where one bit stores, with the others as they must be", "0"
     )
     max_writes: Writes | None = option("how often the memory can be written", "100000")
-    add: Address | None = option("ram_address_bit: what to add to an address", "8000H")
+    add: Number | None = option("ram_address_bit: what to add to an address", "8000H")
     area: Word | None = option("ram_address_bit: the only area, or section, where it may be added", "function_codes")
     twins: tuple[Twin, ...] = option(
         "ram_twin: the registers that are there twice", "[{stored: 000EH, ram: 000DH}]", default=()
@@ -1282,8 +1285,6 @@ class Numbering(Entry):
     says: English | None = option("the manual's own words, where no example shows it", "the number minus 1 is sent")
     source: English = fact("where the manual says so", "section 5")
     document: Word | None = option(_SAYS_SO, "fieldbus_guide")
-    hexadecimal: bool = field(default=False, compare=False, repr=False)
-    """Whether the rows of the map write numbers so; the loader sees it."""
 
     def base(self, space: str) -> int:
         """The number whose address is 0 in a table of Modbus."""
@@ -1295,7 +1296,7 @@ class Numbering(Entry):
 class Drive(Entry):
     """A whole map: one drive family."""
 
-    format: Literal[1] = fact("version of this format", "1")
+    format: Literal[2] = fact("version of this format", "2")
     base: Word | None = option(
         "the map of a sister model, by the name of its file, where this one says only what is different",
         "rockwell_powerflex_4",
@@ -1444,6 +1445,16 @@ class Drive(Entry):
         kept = {use: [pair for pair in rows if id(pair[1]) not in hidden["r" if use == "w" else "w"]] for use in hidden}
         return {use: ([row.address.first for _, row in some], some) for use, some in kept.items()}
 
+
+RESERVED: dict[type, tuple[str, ...]] = {
+    Setting: ("display",),
+    Value: ("display",),
+    Serial: ("pins",),
+    Fault: ("causes", "remedies"),
+}
+"""Keys that nothing reads yet: texts on the keypad, the pins of the connector, what helps against a fault."""
+RESERVED_FACT = ("printed", "rung")
+"""The same of all that has a `source`: the printed cell, and how far it can be trusted."""
 
 Known = TypeVar("Known")
 

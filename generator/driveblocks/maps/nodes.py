@@ -51,6 +51,15 @@ class Entries:
 Node = Scalar | Items | Entries
 
 
+def told(key: str, node: Node) -> Iterator[str]:
+    """What a key says, anywhere in a tree."""
+    if isinstance(node, Items):
+        yield from (word for row in node.items for word in told(key, row))
+    elif isinstance(node, Entries):
+        for name, (_, value) in node.entries.items():
+            yield from [value.text] if name == key and isinstance(value, Scalar) else told(key, value)
+
+
 def parse(text: str, report: Report, *, quick: bool = True, most: int = MAX_NODES) -> Node | None:
     """Return the root node, or None where the text is not YAML; mistakes go to the report. `most`: its values.
 
@@ -160,7 +169,7 @@ def _document(events: _Events) -> Node | None:
     events.next()  # the stream
     start = events.next()
     if isinstance(start, yaml.StreamEndEvent):
-        events.stop(start, "the file is empty", "a map starts with `format: 1`")
+        events.stop(start, "the file is empty", "a map starts with `format: 2`")
     _directives(events, start)
     root = _node(events, events.next(), 0)
     events.next()  # the document's end

@@ -2,50 +2,34 @@
 
 import re
 from collections.abc import Callable
-from dataclasses import replace
 
 from driveblocks.maps import form
-from driveblocks.maps.form import Span
-from driveblocks.maps.model import Drive
-from driveblocks.maps.nodes import Entries, Items, Node, Scalar
+from driveblocks.maps.form import Numbered, Wired
+from driveblocks.maps.model import Drive, Short
+from driveblocks.maps.nodes import Entries, Items, Node, Scalar, told
 from driveblocks.maps.problem import Place, Report
 from driveblocks.maps.shape import EntryOf, ListOf, Shape, keys_of
 
 _NUMBER = re.compile(r"[1-9][0-9]{0,5}|[0-9A-F]{4}H")
 _SPACED = re.compile(r"((?:coil|discrete|input) )?(.*)", re.DOTALL)
-Addressed = Callable[[str, Place], str]
-"""Makes an address of a number at a place."""
+_WRITTEN = r"(?:[1-9][0-9]{0,5}|[0-9A-F]{4}H)"
+_COUNTS = re.compile(rf"\b{_WRITTEN}\b")
+_RUN = re.compile(
+    r"\b(?:(?P<table>register|coil|discrete|input)s? )?"
+    rf"(?P<run>{_WRITTEN}\b(?:(?:, | and | or | to |-){_WRITTEN}\b)*)"
+)
+"""Numbers in a sentence, and the table that it names."""
+_LIKELY = re.compile(r"[0-9A-F]{4}H|[1-9][0-9]{4,5}")
+"""What is a register's number, and hardly anything else."""
 
 
 def wired(root: Node | None, report: Report) -> Node | None:
-    """The same map with addresses in the place of the manual's numbers; as it is where it has no `numbering`."""
+    """The same map with addresses in the place of the manual's numbers; as it is where it has no `numbering`.
+
+    In its sentences the addresses stand beside the numbers.
+    """
     bases = _bases(root)
-    if root is None or "first" not in bases:
-        return root
-
-    def address(text: str, at: Place) -> str:
-        """An address or a range of them; what is neither stays, for the decoder to refuse."""
-        match = _SPACED.fullmatch(text)
-        space, rest = (match[1] or "", match[2]) if match else ("", text)
-        ends = rest.split("-")
-        least = bases.get(space.rstrip(), bases["first"])
-        thing = space.rstrip() or "register"
-        return (
-            space + "-".join(one(each, at, least, thing) for each in ends)
-            if all(map(_NUMBER.fullmatch, ends))
-            else text
-        )
-
-    def one(text: str, at: Place, least: int, thing: str) -> str:
-        number = int(text[:-1], 16) if text.endswith("H") else int(text)
-        if not least <= number <= least + 0xFFFF:
-            right = f"by `numbering` they are {least} to {least + 0xFFFF}"
-            article = "an" if thing == "input" else "a"
-            report.add(at, f"{text} is no number of {article} {thing}", right)
-            return "0000H"
-        return form.address_text(number - least)
-
-    return _wired(EntryOf(Drive), root, address)
+    return root if root is None or "first" not in bases else _Wiring(bases, report).map(root)
 
 
 def _bases(root: Node | None) -> dict[str, int]:
@@ -64,54 +48,116 @@ def numbered(drive: Drive, space: str, number: int) -> int | None:
     """The address of a number of a table, where the manual numbers registers."""
     if drive.numbering is None or not 0 <= number - drive.numbering.base(space) <= 0xFFFF:
         return None
-    return form.SPACES[space] + number - drive.numbering.base(space)
+    return at(drive, form.SPACES[space] + number - drive.numbering.base(space))
 
 
-def named(drive: Drive, span: Span) -> str:
-    """A span of addresses as the manual names it: by its numbers where it numbers registers, written as in the map."""
-    one = drive.numbering
-    if one is None:
-        return form.span_text(span)
-    base = one.base(form.space_of(span.first))
-    numbers = dict.fromkeys(form.wire(each) + base for each in (span.first, span.last))
-    written = "-".join(f"{each:04X}H" if one.hexadecimal else str(each) for each in numbers)
-    return f"{form.address_text(span.first).rpartition(' ')[0]} {written}".lstrip()
+def in_hex(drive: Drive) -> bool:
+    """Whether the manual numbers registers, and in hexadecimal."""
+    known = next((row.address.first for _, row in drive.registers()), None)
+    return isinstance(known, Numbered) and known.hexadecimal
 
 
-def noted(drive: Drive, root: Node | None) -> Drive:
-    """The same map, which knows whether this file of it, before `wired`, writes numbers in hexadecimal."""
-    if drive.numbering is None or not isinstance(root, Entries):
-        return drive
-    node: Node = root
-    for key in ("sections", "registers", "address"):
-        node = node.entries[key][1] if isinstance(node, Entries) and key in node.entries else node
-        node = node.items[0] if isinstance(node, Items) and node.items else node
-    written = isinstance(node, Scalar) and node.text.endswith("H")
-    return replace(drive, numbering=replace(drive.numbering, hexadecimal=written))
+def at(drive: Drive, address: int) -> int:
+    """An address that was sent as one of this map, which has the manual's number where it numbers registers."""
+    if drive.numbering is None:
+        return address
+    return Numbered(address, drive.numbering.base(form.space_of(address)), hexadecimal=in_hex(drive))
 
 
-def _wired(shape: Shape, node: Node, address: Addressed) -> Node:
-    if isinstance(shape, EntryOf) and isinstance(node, Entries):
+class _Wiring:
+    """Takes the manual's numbers out of a map."""
+
+    def __init__(self, bases: dict[str, int], report: Report) -> None:
+        self._bases, self._report = bases, report
+        self._listed: frozenset[int] = frozenset()
+        """The addresses of the rows."""
+        self._hexadecimal = False
+
+    def map(self, root: Node) -> Node:
+        """First the tables, so that sentences know what is an address."""
+        made = self._of(EntryOf(Drive), root)
+        rows = [each for each in told("address", made) if isinstance(each, Wired)]
+        self._hexadecimal = any(each.said.endswith("H") for each in rows)
+        self._listed = frozenset(
+            at for each in rows if form.ADDRESSES.pattern.fullmatch(each) for at in form.ADDRESSES.parse(each)
+        )
+        return self._told(EntryOf(Drive), made)
+
+    def _of(self, shape: Shape, node: Node) -> Node:
+        if isinstance(node, Scalar) and shape in (form.ADDRESS, form.ADDRESSES):
+            return node._replace(text=self._address(node.text, node.at))
+        if isinstance(node, Scalar) and shape is form.REFERENCE:
+            return node._replace(text=self._reference(node))
+        return _each(shape, node, self._of)
+
+    def _told(self, shape: Shape, node: Node) -> Node:
+        if isinstance(node, Scalar) and shape is form.ENGLISH:
+            return node._replace(text=_RUN.sub(self._beside, node.text))
+        return _each(shape, node, self._told)
+
+    def _address(self, text: str, at: Place) -> str:
+        """An address or a range of them; what is neither stays, for the decoder to refuse."""
+        match = _SPACED.fullmatch(text)
+        space, rest = (match[1] or "", match[2]) if match else ("", text)
+        ends = rest.split("-")
+        if not all(map(_NUMBER.fullmatch, ends)):
+            return text
+        thing = space.rstrip() or "register"
+        made = "-".join(self._one(each, at, thing) for each in ends)
+        return Wired(space + made, text, self._base(thing))
+
+    def _base(self, thing: str) -> int:
+        return self._bases.get(thing, self._bases["first"])
+
+    def _one(self, text: str, at: Place, thing: str) -> str:
+        least = self._base(thing)
+        number = _count(text)
+        if not least <= number <= least + 0xFFFF:
+            right = f"by `numbering` they are {least} to {least + 0xFFFF}"
+            article = "an" if thing == "input" else "a"
+            self._report.add(at, f"{text} is no number of {article} {thing}", right)
+            return "0000H"
+        return form.wire_text(number - least)
+
+    def _reference(self, node: Scalar) -> str:
+        """`register 40102` or `bit 40102.3`."""
+        kind, _, name = node.text.partition(" ")
+        number, dot, bit = name.partition(".")
+        if kind not in form.TABLES:
+            return node.text
+        made = self._address(form.TABLES[kind] + number, node.at).rpartition(" ")[2]
+        return Wired(f"{kind} {made}{dot}{bit}", node.text)
+
+    def _beside(self, run: re.Match[str]) -> str:
+        """Numbers in a sentence, with what is sent beside them: `coil 0003H (wire 0002H)`."""
+        counts = _COUNTS.findall(run["run"])
+        likely = all(_LIKELY.fullmatch(each) and each.endswith("H") == self._hexadecimal for each in counts)
+        for table in (run["table"],) if run["table"] else ("register", "input", "coil", "discrete"):
+            sent = [_count(each) - self._base(table) for each in counts]
+            listed = form.SPACES["holding" if table == "register" else table] + sent[0] in self._listed
+            fits = all(0 <= each <= 0xFFFF for each in sent)
+            if fits and (likely + listed + bool(run["table"])) > 1:
+                texts = iter([form.wire_text(each) for each in sent])
+                return f"{run[0]} (wire {_COUNTS.sub(lambda _, texts=texts: next(texts), run['run'])})"
+        return run[0]
+
+
+def _count(text: str) -> int:
+    return int(text[:-1], 16) if text.endswith("H") else int(text)
+
+
+def _each(shape: Shape, node: Node, work: Callable[[Shape, Node], Node]) -> Node:
+    """The same with what a node holds worked over; names stay, of which identifiers are made."""
+    if isinstance(shape, EntryOf) and isinstance(node, Entries) and shape.cls is not Short:
         known = keys_of(shape.cls)
         made = {
-            key: (name, _wired(known[key].shape, value, address) if key in known else value)
+            key: (name, work(known[key].shape, value) if key in known and key != "name" else value)
             for key, (name, value) in node.entries.items()
         }
         return Entries(made, node.at)
     if isinstance(shape, ListOf) and isinstance(node, Items):
-        return Items(tuple(_wired(shape.item, each, address) for each in node.items), node.at)
-    if not isinstance(node, Scalar):
-        return node
-    if shape in (form.ADDRESS, form.ADDRESSES):
-        return node._replace(text=address(node.text, node.at))
-    return node._replace(text=_reference(node, address)) if shape is form.REFERENCE else node
-
-
-def _reference(node: Scalar, address: Addressed) -> str:
-    """`register 40102` or `bit 40102.3`."""
-    kind, _, name = node.text.partition(" ")
-    number, dot, bit = name.partition(".")
-    return f"{kind} {address(number, node.at)}{dot}{bit}" if kind in form.TABLES else node.text
+        return Items(tuple(work(shape.item, each) for each in node.items), node.at)
+    return node
 
 
 def spaced(root: Node | None) -> Node | None:

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 from driveblocks.maps.form import SPACES, Span, space_of, wire
 from driveblocks.maps.model import Drive, Limit, kept
+from driveblocks.maps.numbering import at
 from driveblocks.maps.view import error_number
 from driveblocks.modbus.layout import COIL_ON, Dialect
 
@@ -75,7 +76,8 @@ def start_of(drive: Drive | None, function: int) -> int:
     """What is added to the address in a request of a function: its table's, where the map has rows of that."""
     table = {1: "coil", 2: "discrete", 4: "input", 5: "coil", 15: "coil"}.get(function, "holding")
     rows = drive.registers() if drive else ()
-    return SPACES[table] if any(space_of(row.address.first) == table for _, row in rows) else 0
+    start = SPACES[table] if any(space_of(row.address.first) == table for _, row in rows) else 0
+    return at(drive, start) if drive else start
 
 
 def reads_by(drive: Drive, address: int) -> int:

@@ -7,6 +7,26 @@ from structured_text.visible import file_name
 Place = tuple[int, int]
 """1-based line and column in the file."""
 
+
+class Taken(tuple[int, int]):
+    """The place where a map asks for its base, of something that it takes over; and where the base says that."""
+
+    file: str
+    there: Place
+    without: Place | None
+
+    def __new__(cls, at: Place, file: str, there: Place, without: Place | None) -> "Taken":
+        """`without`: where the map says what it leaves out."""
+        made = super().__new__(cls, at)
+        made.file, made.there, made.without = file, there, without
+        return made
+
+
+def line(place: Place) -> str:
+    """A line of this file, or of the base's."""
+    return f"line {place.there[0]} of {place.file}" if isinstance(place, Taken) else f"line {place[0]}"
+
+
 MAX_PROBLEMS = 1000
 """Nobody reads more, and each costs time: a hostile file can hold a mistake in every byte."""
 
@@ -48,6 +68,8 @@ class Report:
 
     def add(self, place: Place, wrong: str, right: str) -> None:
         """Note a mistake at a 1-based line and column. Raises MapError when there are more than anyone reads."""
+        if isinstance(place, Taken):
+            wrong = f"taken over from {place.file}:{place.there[0]}:{place.there[1]}: {wrong}"
         self.problems.append(Problem(self.file, place[0], place[1], wrong, right))
         if len(self.problems) >= MAX_PROBLEMS:
             wrong = f"more than {MAX_PROBLEMS} mistakes, of which the first are shown"
@@ -58,7 +80,9 @@ class Report:
     def miss(self, place: Place, wrong: str, right: str) -> None:
         """Note that something is missing, unless it may be in a part of the file that could not be read."""
         if not self.partial:
-            self.add(place, wrong, right)
+            kept = isinstance(place, Taken) and place.without
+            more = f", unless what `without` leaves out in line {kept[0]} is to stay" if kept else ""
+            self.add(place, wrong, right + more)
 
     def raise_if_any(self) -> None:
         """Raise MapError with all that was noted; do nothing when all is well."""

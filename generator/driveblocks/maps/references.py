@@ -5,6 +5,13 @@ from collections.abc import Iterable
 from driveblocks.maps import form
 
 
+def of(address: int, bits: str = "") -> str:
+    """What names a register, that of another table than the holding registers by its table; or bits of it."""
+    kind = "" if form.wire(address) != address else "bit " if bits else "register "
+    shown = form.address_text(address, bits).partition(" (")[0]
+    return form.Wired(f"{kind}{form.wire_text(address)}{bits}", f"{kind}{shown}")
+
+
 def concerns(ref: str, kind: str, key: int | str) -> bool:
     """Whether a reference is about an entry: a register by address, a fault, error or function by code, others by id.
 

@@ -7,6 +7,7 @@ from typing import Any
 
 from driveblocks.maps.form import ADDRESS, ADDRESSES, Span, space_of, wire
 from driveblocks.maps.model import Bit, Drive, Entry, ErrorCode, Named, Register, Section
+from driveblocks.maps.numbering import in_hex
 from driveblocks.maps.revision import revision
 from driveblocks.maps.shape import keys_of
 
@@ -22,7 +23,8 @@ def of_drive(drive: Drive, stem: str) -> Plain:
         "drive": stem,
         "revision": f"{revision(drive):08X}",
         **{key: plain(getattr(drive, key)) for key in ("format", "prefix", "vendor", "family", "manual")},
-        **{key: plain(getattr(drive, key)) for key in ("id_forms", "documents", "numbering")},
+        **{key: plain(getattr(drive, key)) for key in ("id_forms", "documents")},
+        "numbering": {**_entry(drive.numbering), "hexadecimal": in_hex(drive)} if drive.numbering else None,
         "registers": [one for section, row in drive.registers() for one in of_row(section, row)],
         "sections": [_without(section, "registers") for section in drive.sections],
         "areas": plain(drive.areas),

@@ -42,6 +42,7 @@ PINS = {
     "motor_temperature": Pin("MotorTemperature", "DegC", ""),
     "operating_time": Pin("OperatingTime", "H", ""),
     "energy": Pin("Energy", "KWh", ""),
+    "motor_torque": Pin("MotorTorque", "Nm", ""),
 }
 """What a register can show -> its pin."""
 

@@ -7,7 +7,7 @@ from typing import Literal
 
 from driveblocks import __version__
 from driveblocks.maps import names
-from driveblocks.maps.form import Span, address_text, bits_text, is_bit, space_of
+from driveblocks.maps.form import Span, address_name, address_text, bits_text, is_bit, space_of
 from driveblocks.maps.model import Drive, Register, Section, Value
 from driveblocks.maps.names import UNIT_NAMES, symbol
 from driveblocks.maps.plan import READ_WORDS, WRITE_WORDS, Plan, Words, dialect, holding
@@ -209,8 +209,8 @@ def decoders(drive: Drive) -> Iterator[Row]:
 def scales(drive: Drive) -> Iterator[Row]:
     """One per register with a scale."""
     for section, row in drive.registers():
-        if row.scale is not None and row.unit is not None:
-            named = _register(drive, section, row, UNIT_NAMES[row.unit])
+        if row.scale is not None:
+            named = _register(drive, section, row, UNIT_NAMES.get(row.unit or "", ""))
             kind = "DINT" if row.signed else "UDINT" if row.words else "UINT"
             yield replace(named, quantity=of_row(row, row.address.first), kind=kind)
 
@@ -338,7 +338,7 @@ def _keeps(drive: Drive, first: int) -> dict[int, Keep]:
     """Those of each command register that has such bits."""
     found = {}
     for register, mask in sorted(kept(drive).items(), key=lambda each: (each[0] != first, each[0])):
-        name = "KeepWord" if register == first else f"KeepWord{address_text(register)}"
+        name = "KeepWord" if register == first else f"KeepWord{address_name(register)}"
         found[register] = Keep(name, register, mask)
     return found
 

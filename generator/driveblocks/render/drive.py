@@ -453,14 +453,14 @@ def _warned(drive: Drive) -> Faulty | None:
 def _measure(drive: Drive, one: Measure, told: Decoded, number: dict[int, int]) -> Measured:
     row, has = drive.register_at(one.register), one.quantity
     assert row is not None  # noqa: S101  (a checked map lists the registers that it measures)
-    holds = [told.holds(each.when) for each in has.factors if each.when]
+    holds = [told.holds(each.when) if each.when else "" for each in has.factors]
     return Measured(
         at=PINS[one.name],
         word=word_input(drive, has.high),
         low=word_input(drive, has.low) if has.pair else None,
         scale=has.factor,
         function=names.block(drive.prefix, names.symbol(row) + PINS[one.name].unit),
-        when=" OR ".join(holds) if len(holds) < 2 else f"({' OR '.join(holds)})",
+        when="" if not all(holds) else " OR ".join(holds) if len(holds) < 2 else f"({' OR '.join(holds)})",
         known=_known(drive, one, number),
         choices=list(zip(holds, (each.value for each in has.factors), strict=True)) if has.factors[1:] else [],
         signed=has.signed,

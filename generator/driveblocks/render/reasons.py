@@ -94,8 +94,8 @@ REASONS = (
     Reason(
         48,
         "NO_RESET",
-        "the reset was refused",
-        "复位被拒绝",
+        "no reset was sent, or the drive did not take it",
+        "复位未发出，或变频器未接受",
         "release the run pins, remove the cause, then a rising `FaultReset`; "
         "none is sent with `SpeedOnly` or `MonitorOnly`",
         "`FaultReset` was pressed: this drive takes none over the bus",

@@ -4,6 +4,7 @@ from collections.abc import Iterator
 
 from rich.console import RenderableType
 
+from driveblocks.maps.form import said
 from driveblocks.maps.model import Absence, Corroboration, Drive, Erratum, Notice
 from driveblocks.show.layout import both, card, heading, listed, own_head
 
@@ -18,7 +19,7 @@ def of_erratum(drive: Drive, erratum: Erratum, number: str = "") -> RenderableTy
     """One misprint: what is printed, what is used, why, how sure."""
     return card(
         f"{number}{erratum.where}",
-        ("about", listed(erratum.about)),
+        ("about", listed(map(said, erratum.about))),
         ("printed", erratum.printed),
         ("used", erratum.used),
         ("why", erratum.why),
@@ -38,7 +39,7 @@ def of_absence(drive: Drive, absence: Absence, number: str = "") -> RenderableTy
     """One thing that the manual does not say, and how to find it out."""
     return card(
         f"{number}{absence.what}",
-        ("about", listed(absence.about)),
+        ("about", listed(map(said, absence.about))),
         ("matters", absence.matters),
         ("find out", absence.find_out),
         ("also says", corroborated(drive, absence.corroborated)),
@@ -56,7 +57,7 @@ def of_notice(notice: Notice) -> RenderableType:
     return card(
         f"{notice.kind}: {notice.text.en}",
         (own_head([notice.text.own]), notice.text.own),
-        ("about", listed(notice.about)),
+        ("about", listed(map(said, notice.about))),
         ("note", notice.note),
         ("source", notice.source),
     )

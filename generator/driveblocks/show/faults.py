@@ -68,7 +68,7 @@ def all_bits(drive: Drive) -> Iterator[tuple[str, Register, Bit]]:
     """Every bit and field of every register, with its place."""
     for _, row in drive.registers():
         for bit in row.bits:
-            yield f"{address_text(row.address.first)}.{bits_text(bit.bit)}", row, bit
+            yield address_text(row.address.first, f".{bits_text(bit.bit)}"), row, bit
 
 
 def errors(drive: Drive) -> Iterator[RenderableType]:

@@ -1,14 +1,14 @@
 """The page of one register: everything that the map holds about it."""
 
 from collections.abc import Iterator
+from decimal import Decimal
 
 from rich.console import RenderableType
 from rich.padding import Padding
 
 from driveblocks.maps import view
-from driveblocks.maps.form import Span, address_text, bits_text, span_text, wire
+from driveblocks.maps.form import address_text, bits_text, span_text, wire, wire_text
 from driveblocks.maps.model import Area, Command, Drive, Register, Section, Step, Value
-from driveblocks.maps.numbering import named
 from driveblocks.meaning.pattern import of_condition
 from driveblocks.meaning.words import DOES, UNKNOWN, words
 from driveblocks.show.errata import corroborated
@@ -28,8 +28,7 @@ def page(drive: Drive, section: Section, row: Register, address: int) -> Iterato
         ("name", "(not used)" if row.unused else both(row.name, row.own)),
         ("printed", _printed(row)),
         ("one of", run),
-        ("address", f"{address_text(address)} = {wire(address)}"),
-        ("number", named(drive, Span(address, address)) if drive.numbering else None),
+        ("address", f"{wire_text(address)} = {wire(address)}"),
         ("use", None if row.unused else _ACCESS[row.access or section.access]),
         ("unit", _unit(row)),
         ("scale", _scale(row)),
@@ -80,18 +79,21 @@ def _unit(row: Register) -> str | None:
     return row.unit if row.unit is None or row.scale else f"{row.unit}; the manual gives no scale"
 
 
+def _count(row: Register, factor: Decimal) -> str:
+    return f"{factor} {row.unit}" if row.unit else str(factor)
+
+
 def _scale(row: Register) -> str | None:
     scale = row.scale
     if scale is None:
         return None
     when = f"\nonly while {of_condition(scale.when)}" if scale.when else ""
     when += f"\nonly while {scale.needs.setting} = {scale.needs.value}" if scale.needs else ""
-    when += "".join(
-        f"\none count is {one.factor} {row.unit} while {of_condition(one.when)}  ({one.source})"
-        for one in scale.otherwise
-    )
+    for one in scale.otherwise:
+        while_ = f"while {of_condition(one.when)}" if one.when else "otherwise"
+        when += f"\none count is {_count(row, one.factor)} {while_}  ({one.source})"
     proof = f"\nproved by the example frame {scale.proof}" if scale.proof else ""
-    return f"one count is {scale.factor} {row.unit}{when}{proof}\n({scale.source})"
+    return f"one count is {_count(row, scale.factor)}{when}{proof}\n({scale.source})"
 
 
 def _commands(drive: Drive, row: Register, address: int) -> Iterator[str]:

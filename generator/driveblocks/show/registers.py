@@ -94,7 +94,7 @@ def _lines(section: Section, marks: _Marks) -> Iterator[tuple[str, ...]]:
 def _cells(section: Section, row: Register) -> tuple[str, ...]:
     name = "(not used)" if row.unused else row.name or "(no name)"
     use = "" if row.unused else row.access or section.access
-    address, id_ = _ends(span_text(row.address), "-"), _ends(row.id or "", "..")
+    address, id_ = _ends(span_text(row.address)), _ends(row.id or "", "..")
     return address, id_, use, name, row.own, unit(row)
 
 
@@ -115,14 +115,14 @@ def _value(mark: str, value: Value) -> tuple[str, ...]:
 
 def unit(row: Register) -> str:
     """The unit of a register as `0.1 V` for one count, `V ?` where the manual gives no scale, `*` with a condition."""
-    if row.unit is None:
-        return ""
     if row.scale is None:
-        return f"{row.unit} ?"
-    return f"{row.scale.factor} {row.unit}{' *' if row.scale.when else ''}"
+        return f"{row.unit} ?" if row.unit else ""
+    return f"{row.scale.factor} {row.unit or ''}".rstrip() + " *" * (row.scale.when is not None)
 
 
-def _ends(text: str, between: str) -> str:
-    """A range on two lines, so that the column stays as narrow as one address."""
+def _ends(text: str, between: str = "-") -> str:
+    """A range on two lines, so that the column stays as narrow as one address; what is sent is on the second."""
+    if between in text and "(" in text:
+        return text.replace(" (", "\n(")
     first, found, last = text.partition(between)
     return f"{first}{found}\n{last}" if found else text

@@ -5,9 +5,8 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from decimal import Decimal
 
-from driveblocks.maps.form import Span
+from driveblocks.maps.form import Span, span_text
 from driveblocks.maps.model import Drive, Register
-from driveblocks.maps.numbering import named
 from driveblocks.maps.plan import merged
 from driveblocks.meaning.measure import measures
 from driveblocks.meaning.quantity import of_row
@@ -79,10 +78,10 @@ def _bits(row: Register) -> tuple[tuple[int, str], ...]:
 
 
 def zeros(drive: Drive, known: Iterable[int]) -> str:
-    """The registers of a map that read 0 until somebody writes them, as the manual names them; empty for none."""
+    """The registers of a map that read 0 until somebody writes them; empty for none."""
     told = {one.last.register for one in words(drive).commands} | {reference(drive).register}
     taken, free = {*known, *told}, list[int]()
     for section, row in drive.registers():
         if "r" in (row.access or section.access) and not row.unused:
             free += (each for each in row.address if each not in taken)
-    return ", ".join(named(drive, span) for span in merged(Span(each, each) for each in free))
+    return ", ".join(span_text(span) for span in merged(Span(each, each) for each in free))

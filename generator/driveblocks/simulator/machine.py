@@ -170,6 +170,7 @@ class Machine:
             "drive_temperature": 1000 * habits.drive_degrees,
             "motor_temperature": 1000 * habits.motor_degrees,
             "operating_time": 1000 * habits.hours,
+            "motor_torque": 100 * self.load * driven,
             "energy": 1000 * habits.kilowatt_hours,
         }[gauge.shows]
         return _counts(milli, gauge.milli, gauge.shift or 0)

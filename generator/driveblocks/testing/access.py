@@ -4,6 +4,7 @@ from collections.abc import Iterator
 
 from driveblocks.maps.form import Span, address_text
 from driveblocks.maps.model import Drive
+from driveblocks.maps.numbering import at
 from driveblocks.reference.permission import readable, writable
 from driveblocks.testing import bench
 from driveblocks.testing.request import Sources, runs
@@ -18,7 +19,7 @@ def scripts(drive: Drive, stem: str) -> Iterator[Script]:
     program = bench.script(drive, stem, "Access", "which registers may be read and written, each range from both sides")
     sources = Sources(drive)
     for name, verb, allowed in (("CanRead", "read", readable(drive)), ("CanWrite", "written", writable(drive))):
-        for span in runs(allowed):
+        for span in runs(at(drive, each) for each in allowed):
             last = f" to {address_text(span.last)}" if len(span) > 1 else ""
             words = f"{address_text(span.first)}{last} may be {verb}"
             probes = (_probe(drive, name, allowed, *asked) for asked in dict.fromkeys(_around(span)))
@@ -42,4 +43,4 @@ def _probe(drive: Drive, name: str, allowed: frozenset[int], address: int, quant
     """A check of what a function says of some registers; those that run past FFFFH are never allowed, nor is none."""
     expected = quantity > 0 and allowed.issuperset(range(address, address + quantity))
     call = f"{drive.prefix}_{name}(Address := {word(address)}, Quantity := {quantity})"
-    return bench.is_flag(call, expected, f"{quantity} from {address_text(address)}")
+    return bench.is_flag(call, expected, f"{quantity} from {address_text(at(drive, address))}")

@@ -15,5 +15,5 @@ def register_block(drive: Drive, row: Register) -> str:
 
 
 def scale_block(drive: Drive, row: Register) -> str:
-    """The function that gives a register's engineering value; the row has a scale and a unit."""
-    return f"{drive.prefix}_{name_of(row)}{UNITS[row.unit or '']}"
+    """The function that gives a register's engineering value; the row has a scale."""
+    return f"{drive.prefix}_{name_of(row)}{UNITS[row.unit] if row.unit else ''}"

@@ -4,6 +4,7 @@ from collections.abc import Iterator
 
 from driveblocks.maps.form import address_text
 from driveblocks.maps.model import Drive
+from driveblocks.maps.numbering import at
 from driveblocks.reference.permission import Judge, Numbered, Write, parameters
 from driveblocks.testing import bench
 from driveblocks.testing.code import NUMBERS, WORDS
@@ -27,7 +28,7 @@ def _writes(drive: Drive, stem: str) -> Script:
     judge = Judge(drive)
     for address in _turns(drive, judge):
         wishes = [Write(address, unknown=how & 1 > 0, stopped=how & 2 > 0) for how in range(4)]
-        program.stage(address_text(address), *(_wish(drive, judge, wish) for wish in wishes))
+        program.stage(address_text(at(drive, address)), *(_wish(drive, judge, wish) for wish in wishes))
     for _, row in drive.registers():
         if row.range is not None:
             ends = (row.range.min - 1, row.range.min, row.range.max, row.range.max + 1)

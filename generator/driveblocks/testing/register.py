@@ -28,7 +28,7 @@ def scripts(drive: Drive, stem: str) -> Iterator[Script]:
     for section, row in drive.registers():
         if decode(row, 0):
             yield _decoder(drive, stem, section, row)
-    rows = [(section, row) for section, row in drive.registers() if row.scale is not None and row.unit is not None]
+    rows = [(section, row) for section, row in drive.registers() if row.scale is not None]
     scales = bench.script(drive, stem, "Scales", "engineering values of registers")
     for section, row in rows:
         _scale(scales, drive, section, row)
@@ -110,6 +110,8 @@ def _scale(program: Script, drive: Drive, section: Section, row: Register) -> No
         pins = f"High := {word(raw >> 16)}, Low := {word(raw & 0xFFFF)}" if row.words else f"Raw := {word(raw)}"
         call = f"{scale_block(drive, row)}({pins})"
         value = engineering(row, raw)
-        probes.append(bench.is_real(call, value, f"{raw:04X}H is {value:.9g} {row.unit}"))
-    words = f"{address_text(row.address.first)}, {row.name}, {row.scale.factor} {row.unit} per count"
+        probes.append(bench.is_real(call, value, f"{raw:04X}H is {value:.9g} {row.unit or ''}".rstrip()))
+    words = (
+        f"{address_text(row.address.first)}, {row.name}, {row.scale.factor} {row.unit or ''}".rstrip() + " per count"
+    )
     program.stage(words, *probes, source=f"{row.source or section.source}; {row.scale.source}")

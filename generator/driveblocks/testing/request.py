@@ -7,6 +7,7 @@ from typing import Any
 
 from driveblocks.maps.form import Span, address_text
 from driveblocks.maps.model import Drive
+from driveblocks.maps.plan import start_of
 from driveblocks.meaning.serial import serial
 from driveblocks.reference.request import BUILDABLE, COUNTED, READS, Asked, Requests
 from driveblocks.testing import bench
@@ -126,7 +127,8 @@ def _untouched(body: bytes) -> tuple[int, int]:
 def _row(table: Table, model: Requests, case: Case) -> None:
     built = model.build(case.asked)
     head, tail = _untouched(built.body)
-    words = f"{case.about}: {_said(case.asked)}: {'' if built.result == 'OK' else 'refused, '}{WORDS[built.result]}"
+    refused = "" if built.result == "OK" else "refused, "
+    words = f"{case.about}: {_said(model.drive, case.asked)}: {refused}{WORDS[built.result]}"
     asked = {pin: getattr(case.asked, name) for name, (pin, _) in _PINS.items()}
     wanted = {
         "WantedError": NUMBERS[built.result],
@@ -138,12 +140,12 @@ def _row(table: Table, model: Requests, case: Case) -> None:
     table.row(words, asked | wanted, source=case.source)
 
 
-def _said(asked: Asked) -> str:
+def _said(drive: Drive, asked: Asked) -> str:
     parts = [f"function {asked.function:02X}H"]
     if asked.function == 8:
         parts.append(f"sub-function {asked.sub_function:04X}H")
     else:
-        parts.append(address_text(asked.address))
+        parts.append(address_text(asked.address + start_of(drive, asked.function)))
     if asked.function in COUNTED:
         parts.append(f"{asked.quantity} register{'s' * (asked.quantity != 1)}")
     return ", ".join([*parts, f"unit {asked.unit}", *(["ASCII"] if asked.ascii else [])])
@@ -308,7 +310,7 @@ def _writes(drive: Drive, stem: str, model: Requests) -> Script:
             each = replace(asked, quantity=quantity, ascii=ascii_mode, words=asked.words[:quantity])
             built = model.build(each)
             program.stage(
-                f"{_said(each)}: {WORDS[built.result]}",
+                f"{_said(drive, each)}: {WORDS[built.result]}",
                 *bench.build(each),
                 bench.has_result("Build", built.result),
                 bench.is_number("Build.Length", len(built.body), "Length"),

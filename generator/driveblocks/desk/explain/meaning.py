@@ -8,7 +8,8 @@ from driveblocks.maps import view
 from driveblocks.maps.adu import number
 from driveblocks.maps.form import address_text, bits_text
 from driveblocks.maps.model import Area, Bit, Drive, Register, Use, Value
-from driveblocks.meaning.quantity import of_row
+from driveblocks.maps.numbering import at
+from driveblocks.meaning.quantity import Factor, of_row
 from driveblocks.meaning.status import status
 from driveblocks.meaning.words import words
 
@@ -47,6 +48,7 @@ def held(drive: Drive | None, address: int | None, word: int | None, *, writing:
     """What a drive's map says of an address and a word."""
     if drive is None or address is None:
         return Held(address, word, word)
+    address = at(drive, address)
     use: Use = "w" if writing else "r"
     row = drive.register_at(address, use)
     if row is not None:
@@ -190,11 +192,15 @@ def _commands(drive: Drive, address: int, word: int) -> Iterator[Line]:
         yield Line("command", "", told.says(word), "", None)
 
 
+def _while(one: Factor) -> str:
+    return "otherwise" if one.when is None else f"while {one.when}"
+
+
 def _notes(drive: Drive, row: Register, word: int, writing: bool) -> Iterator[str]:
     factors = of_row(row, row.address.first).factors
     if factors and factors[0].when is not None:
         yield f"only while {factors[0].when}"
-        yield from (f"{number(word, row.signed) * one.value} {row.unit} while {one.when}" for one in factors[1:])
+        yield from (f"{number(word, row.signed) * one.value} {row.unit} {_while(one)}" for one in factors[1:])
     if row.unit is not None and not factors:
         yield f"in {row.unit}, but the manual gives no scale"
     if row.range is not None and not row.range.holds(number(word, row.signed)):

@@ -146,7 +146,7 @@ def means(one: Held) -> str:
     """The number, its engineering value, and what is to be known of it."""
     if one.word is None:
         return ""
-    number = f"{one.number}" + (f" = {one.value} {one.unit}" if one.value is not None else "")
+    number = f"{one.number}" + (f" = {one.value} {one.unit or ''}".rstrip() if one.value is not None else "")
     note = one.note if one.known else ""
     return "; ".join(filter(None, (number, note)))
 

@@ -95,7 +95,7 @@ class Reader:
         if one.refusal:
             return self._refused(one)
         if one.number("address") is not None:
-            return _access(one)
+            return _access(one, address_text((one.number("address") or 0) + self._start(one)))
         if one.function in (1, 2, 3, 4):
             return f"{_things(one, len(one.words))} read" if one.words else self.function(one.function)
         if one.function == 8:
@@ -228,10 +228,9 @@ class Reader:
             yield f"The fields of function {one.function:02X}H are not taken apart."
 
 
-def _access(one: Layout) -> str:
+def _access(one: Layout, where: str) -> str:
     """What a frame with an address does there."""
-    where, reply = address_text(one.number("address") or 0), one.direction == "reply"
-    quantity, value = one.number("quantity"), one.number("value")
+    quantity, value, reply = one.number("quantity"), one.number("value"), one.direction == "reply"
     if value is not None:
         return f"{value} written to {where}" if reply else f"write {value} to {where}"
     many = _things(one, quantity or 0)

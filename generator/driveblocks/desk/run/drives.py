@@ -68,8 +68,7 @@ class Named:
         scales = [f"{name}={given.get(name, _usual(name))}" for name in open_scales(self.drive)]
         text = ", ".join((f"{self.drive.prefix} at unit {self.unit}: maximum {self.maximum_hz} Hz{full}", *scales))
         zeros = self.made(ascii_mode=False).table.zeros
-        by = " (the manual's numbers)" if self.drive.numbering else ""
-        lines = [text, f"  reads 0 until written{by}: {zeros}"] if zeros else [text]
+        lines = [text, f"  reads 0 until written: {zeros}"] if zeros else [text]
         return [row for line in lines for row in textwrap.wrap(line, WIDTH, subsequent_indent="  ")]
 
 

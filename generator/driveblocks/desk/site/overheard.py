@@ -12,6 +12,8 @@ from driveblocks.desk.explain.page import means
 from driveblocks.desk.site.ear import FORMS
 from driveblocks.desk.site.found import Way
 from driveblocks.maps.form import Span, address_text, span_text
+from driveblocks.maps.model import Drive
+from driveblocks.maps.numbering import at
 from driveblocks.modbus.envelope import mode_of
 from driveblocks.modbus.request import WRITES
 from driveblocks.show.layout import facts, table
@@ -87,7 +89,7 @@ def _odd(number: int, unit: Unit, traffic: Exchanges) -> Iterator[tuple[str, str
         )
     for key, poll in unit.polls.items():
         if poll.refusals:
-            what = f"{key[0]:02X}H at {_where(key)}"
+            what = f"{key[0]:02X}H at {_where(key, traffic.drive(number))}"
             yield "refused", f"unit {number} refused {what} {poll.refusals} of {poll.count} times"
 
 
@@ -111,7 +113,7 @@ def _unit(number: int, unit: Unit, traffic: Exchanges) -> RenderableType:
         replies = "-".join(map(str, took)) if poll.replies + poll.refusals else "-"
         every = str(poll.every_us // 1000) if poll.count > 1 else "-"
         texts = list(_words(number, key, poll, traffic)) or ["-"]
-        row = f"{key[0]:02X}H", _where(key), every, str(poll.count), str(poll.replies), replies
+        row = f"{key[0]:02X}H", _where(key, traffic.drive(number)), every, str(poll.count), str(poll.replies), replies
         made.add_row(*row, "\n".join(texts))
     return made
 
@@ -122,15 +124,16 @@ def _words(number: int, key: Key, poll: Poll, traffic: Exchanges) -> Iterator[st
     for place, word in enumerate(poll.words):
         one = held(drive, key[1] + place, word, writing=key[0] in WRITES)
         name = " ".join(filter(None, (one.id, one.name)))
-        yield f"{name or address_text(key[1] + place)}: {means(one) if drive else f'{word:04X}H'}"
+        yield f"{name or address_text(one.address or 0)}: {means(one) if drive else f'{word:04X}H'}"
 
 
 def _times(count: int) -> str:
     return "once" if count == 1 else f"{count} times"
 
 
-def _where(key: Key) -> str:
-    return span_text(Span(key[1], min(key[1] + max(key[2], 1) - 1, 0xFFFF)))
+def _where(key: Key, drive: Drive | None) -> str:
+    span = Span(key[1], min(key[1] + max(key[2], 1) - 1, 0xFFFF))
+    return span_text(Span(at(drive, span.first), span.last) if drive else span)
 
 
 def line(said: Said, clock: str) -> str:

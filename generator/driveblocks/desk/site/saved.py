@@ -22,7 +22,7 @@ LONGEST = 4096
 _HEAD = re.compile(r"# map: (?P<map>\S+), revision (?P<revision>[0-9A-F]{8})")
 _UNIT = re.compile(r"# unit: (?P<unit>[0-9]{1,3})")
 _OURS = re.compile(rf"# parameters of .+, read by driveblocks|# read: [0-9]+ of [0-9]+|{_HEAD.pattern}|{_UNIT.pattern}")
-_PLACE = re.compile("(?:(coil|discrete|input) )?([0-9A-F]{4})H")
+_PLACE = re.compile(r"(?:(coil|discrete|input) )?(?:\S+ \(wire )?([0-9A-F]{4})H\)?")
 _WORD = re.compile(r"[0-9]{1,5}")
 
 Word = int | str

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 from driveblocks.maps.form import Span, address_text, span_text
 from driveblocks.maps.model import Area, AreaExample, Drive, Storage
-from driveblocks.maps.problem import Place, Report
+from driveblocks.maps.problem import Place, Report, line
 from driveblocks.maps.rules.access import known
 from driveblocks.maps.rules.parameter import of_form
 from driveblocks.maps.rules.setting import must_be
@@ -48,7 +48,7 @@ def _spans(drive: Drive, report: Report) -> None:
         if span.last > 0xFFFF:
             report.add(place, f"{what} runs past FFFFH", "an address has 16 bits")
     rows: list[tuple[Span, _Claim]] = [
-        (row.address, (row.place("address"), f"register {span_text(row.address)} in line {row.at[0]}"))
+        (row.address, (row.place("address"), f"register {span_text(row.address)} in {line(row.at)}"))
         for _, row in drive.registers()
     ]
     starts = {id(claim) for _, claim in claims}

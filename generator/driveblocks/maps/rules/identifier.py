@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator
 from driveblocks.maps import names
 from driveblocks.maps.form import span_text
 from driveblocks.maps.model import Bit, Drive, Register, Value
-from driveblocks.maps.problem import Report
+from driveblocks.maps.problem import Report, line
 from driveblocks.meaning.polls import fast_words, slow_words
 
 LIBRARY = ("MB", "VFD", "LX", "CD", "SI", "TC")
@@ -57,8 +57,8 @@ def suffixes(row: Register) -> Iterator[str]:
     """The blocks that a register has: a decoder, a scale."""
     if row.values or any(bit.name and not bit.unused for bit in row.bits):
         yield ""
-    if row.scale is not None and row.unit is not None:
-        yield names.UNIT_NAMES[row.unit]
+    if row.scale is not None:
+        yield names.UNIT_NAMES.get(row.unit or "", "")
 
 
 class _Taken:
@@ -75,8 +75,7 @@ class _Taken:
         if no_symbol := names.wrong_symbol(entry):
             self.report.add(place, no_symbol, "add a `symbol` of letters A to Z and digits")
             return
-        line = f"line {entry.at[0]}"
-        taken = self.lines.setdefault(made.upper(), (entry, line))
+        taken = self.lines.setdefault(made.upper(), (entry, line(entry.at)))
         if wrong is None and taken[0] is not entry:
             wrong = f"is taken by {taken[1]}"
         if wrong:

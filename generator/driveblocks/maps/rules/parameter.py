@@ -6,7 +6,7 @@ from functools import cache, lru_cache
 
 from driveblocks.maps.form import Span, address_text
 from driveblocks.maps.model import Drive, Entry, Register, Section, Series
-from driveblocks.maps.problem import Report
+from driveblocks.maps.problem import Report, line
 from driveblocks.maps.rules.unique import overlapping
 
 _CLASSES = {"A": "[A-Z]", "a": "[a-z]", "9": "[0-9]", "X": "[A-Z0-9]"}
@@ -80,7 +80,7 @@ def _twice(drive: Drive, report: Report) -> None:
             groups.setdefault(group, []).append((numbers, row))
     for rows in groups.values():
         for earlier, later in overlapping(rows):
-            wrong = f"id `{later.id}` is taken by line {earlier.at[0]}"
+            wrong = f"id `{later.id}` is taken by {line(earlier.at)}"
             right = "one row per id; if the manual misprints it, use the right one and `printed:`"
             report.add(later.place("id"), wrong, right)
 

@@ -2,10 +2,11 @@
 
 from collections.abc import Iterator
 
-from driveblocks.maps.form import address_text, bits_text, span_text
+from driveblocks.maps import references
+from driveblocks.maps.form import address_text, bits_text, said, span_text, written
 from driveblocks.maps.model import Bit, Corroboration, Drive, Entry, Erratum, ErrorCode, Register, Section, Text, Value
 from driveblocks.maps.plan import plan
-from driveblocks.maps.problem import Place, Report
+from driveblocks.maps.problem import Place, Report, line
 from driveblocks.maps.rules.reference import Known
 from driveblocks.maps.rules.unique import unique
 from driveblocks.maps.trust import TRUSTS, taken
@@ -19,8 +20,8 @@ def check(drive: Drive, report: Report) -> None:
     covered = _references(drive, report)
     for name, place in _misprints(drive):
         if name not in covered:
-            wrong = f"{name} departs from the manual (or lacks its name), but no erratum names it"
-            report.miss(place, wrong, f"add an entry to `errata` with `about: [{name}]`")
+            wrong = f"{said(name)} departs from the manual (or lacks its name), but no erratum names it"
+            report.miss(place, wrong, f"add an entry to `errata` with `about: [{written(name)}]`")
     _printed(drive, report)
     _errata(drive, report)
     unique(drive.absent, "what", "absence", report)
@@ -105,13 +106,13 @@ def _section_misprints(section: Section) -> Iterator[tuple[str, Place]]:
 
 
 def _row_misprints(row: Register) -> Iterator[tuple[str, Place]]:
-    address = address_text(row.address.first)
+    address = row.address.first
     nameless = not row.name and not row.unused
     if row.printed is not None or row.zh_used is not None or nameless or _any_used(row.values):
-        yield f"register {address}", row.at
+        yield references.of(address), row.at
     for bit in row.bits:
         if bit.printed is not None or bit.zh_used is not None or _any_used(bit.values):
-            yield f"bit {address}.{bits_text(bit.bit)}", bit.at
+            yield references.of(address, f".{bits_text(bit.bit)}"), bit.at
 
 
 def _error_misprints(error: ErrorCode) -> Iterator[tuple[str, Place]]:
@@ -130,7 +131,7 @@ def _printed(drive: Drive, report: Report) -> None:
 def _pairs(drive: Drive) -> Iterator[tuple[Place, str | None, str | None]]:
     for _, row in drive.registers():
         if row.printed is not None:
-            yield row.printed.place("address"), row.printed.address, span_text(row.address)
+            yield row.printed.place("address"), row.printed.address, span_text(row.address).partition(" (")[0]
             yield row.printed.place("id"), row.printed.id, row.id
         for bit in row.bits:
             yield from _bit_pairs(bit)
@@ -150,7 +151,7 @@ def _errata(drive: Drive, report: Report) -> None:
     for erratum in drive.errata:
         first = seen.setdefault((erratum.about, erratum.where, erratum.printed), erratum)
         if first is not erratum:
-            wrong = f"this erratum repeats the one in line {first.at[0]}"
+            wrong = f"this erratum repeats the one in {line(first.at)}"
             report.add(erratum.at, wrong, "keep one of them")
         if erratum.printed == erratum.used and erratum.confidence == "certain":
             wrong = "this erratum uses what is printed, and is certain of it"

@@ -4,8 +4,8 @@ import re
 from collections.abc import Callable
 from functools import partial
 
-from driveblocks.maps import form
-from driveblocks.maps.form import address_text, bits_text
+from driveblocks.maps import form, references
+from driveblocks.maps.form import bits_text, said
 from driveblocks.maps.model import USES, Drive
 from driveblocks.maps.problem import Place, Report
 
@@ -46,7 +46,7 @@ class Known:
         seen: set[str] = set()
         for ref in refs:
             if ref in seen:
-                report.add(place, f"`{ref}` is twice in one list", "keep one of them")
+                report.add(place, f"`{said(ref)}` is twice in one list", "keep one of them")
             seen.add(ref)
             names = self._of(*ref.partition(" ")[::2])
             if not names:
@@ -58,11 +58,11 @@ class Known:
         kind = ref.partition(" ")[0]
         kinds = (*self.finders, *self.codes, *self.names, *_SINGLE)
         if kind not in kinds:
-            report.add(place, f"`{ref}` is no reference", "start it with one of " + ", ".join(kinds))
+            report.add(place, f"`{said(ref)}` is no reference", "start it with one of " + ", ".join(kinds))
         elif kind in _SINGLE:
-            report.add(place, f"`{ref}` is no reference", f"write `{kind}` alone")
+            report.add(place, f"`{said(ref)}` is no reference", f"write `{kind}` alone")
         else:
-            report.miss(place, f"`{ref}` names nothing in this map", f"name an existing {kind}, as `{kind} ...`")
+            report.miss(place, f"`{said(ref)}` names nothing in this map", f"name an existing {kind}, as `{kind} ...`")
 
     def _of(self, kind: str, name: str) -> list[str]:
         if kind in _SINGLE:
@@ -82,7 +82,7 @@ class Known:
         in_area = any(first in area.addresses for area in self.drive.areas)
         if last < first or not (in_area or self.drive.register_at(first)):
             return []
-        return [_reference(row.address.first) for row in rows] or [f"{table} {name}"]
+        return [references.of(row.address.first) for row in rows] or [f"{table} {name}"]
 
     def _bits(self, name: str) -> list[str]:
         match = _BIT.fullmatch(name)
@@ -93,8 +93,3 @@ class Known:
         bits = (bit.bit for row in rows if row for bit in row.bits)
         spans = [span for span in bits if span.first <= high and low <= span.last]
         return [f"bit {match[1]}H.{bits_text(span)}" for span in spans]
-
-
-def _reference(address: int) -> str:
-    """How a register is named: that of another table than the holding registers by its name."""
-    return address_text(address) if form.wire(address) != address else f"register {address_text(address)}"

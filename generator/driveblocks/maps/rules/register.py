@@ -3,7 +3,7 @@
 from driveblocks.maps.factor import doubt
 from driveblocks.maps.form import Span, address_text, bits_text, is_bit, span_text
 from driveblocks.maps.model import Bit, Drive, Manual, Numbering, OtherScale, Range, Register, Scale, Value
-from driveblocks.maps.problem import Report
+from driveblocks.maps.problem import Report, line
 from driveblocks.maps.rules.condition import exclude
 from driveblocks.maps.rules.name import worded
 from driveblocks.maps.rules.unique import overlapping, unique
@@ -53,7 +53,7 @@ def _addresses(drive: Drive, report: Report) -> None:
         if earlier.address != later.address:
             taken.setdefault(id(later), (earlier, later))
     for earlier, later in taken.values():
-        wrong = f"address {span_text(later.address)} is taken by line {earlier.at[0]}"
+        wrong = f"address {span_text(later.address)} is taken by {line(earlier.at)}"
         right = "one row per address, or one with `access: r` and one with `w`; if the manual misprints it, use the "
         report.add(later.place("address"), wrong, f"{right}right one and `printed:`")
 
@@ -143,7 +143,7 @@ def _named(manual: Manual, entry: Register | Bit, what: str, unused: bool, repor
 
 def _bits(manual: Manual, row: Register, report: Report) -> None:
     for earlier, later in overlapping((bit.bit, bit) for bit in row.bits):
-        wrong = f"bit {bits_text(later.bit)} of {address_text(row.address.first)} is taken by line {earlier.at[0]}"
+        wrong = f"bit {bits_text(later.bit)} of {address_text(row.address.first)} is taken by {line(earlier.at)}"
         report.add(later.place("bit"), wrong, "one entry per bit")
     for bit in row.bits:
         _one_bit(manual, row, bit, report)
@@ -169,9 +169,6 @@ def _width(bits: Span) -> str:
 def _scale(row: Register, report: Report) -> None:
     if row.scale is None:
         return
-    if row.unit is None:
-        right = "add `unit`, or leave the scale out when the manual gives none"
-        report.miss(row.place("scale"), "a scale without a unit", right)
     factors: list[Scale | OtherScale] = [row.scale, *row.scale.otherwise]
     for one in factors:
         if one.factor <= 0:
@@ -193,6 +190,9 @@ def _otherwise(row: Register, scale: Scale, report: Report) -> None:
         report.add(scale.place("otherwise"), "a value of 32 bits has one factor", "leave `otherwise` out")
     if scale.when is None:
         report.miss(scale.at, "a factor that always holds has others beside it", "add `when` to it, too")
+    for one in scale.otherwise[:-1]:
+        if one.when is None:
+            report.miss(one.at, "a factor that holds while no other does is not the last", "add `when`, or move it")
     for number, later in enumerate(scale.conditions):
         if not all(exclude(later, earlier) for earlier in scale.conditions[:number]):
             wrong = "this may hold together with the condition of another factor"

@@ -40,6 +40,7 @@ _SHOWN: dict[str, tuple[str, ...]] = {
     "output_power": ("power", "功率"),
     "output_speed": ("speed", "r/min", "rpm", "转速"),
     "output_torque": ("torque", "转矩", "力矩"),
+    "motor_torque": ("torque", "转矩", "力矩"),
     "relative_power": ("power", "功率"),
     "drive_temperature": ("temperature", "heat sink", "heatsink", "温度"),
     "motor_temperature": ("temperature", "温度"),

@@ -5,7 +5,7 @@ from typing import Any, TypeVar
 
 from driveblocks.maps.form import Span
 from driveblocks.maps.model import Entry
-from driveblocks.maps.problem import Report
+from driveblocks.maps.problem import Report, line
 
 E = TypeVar("E", bound=Entry)
 T = TypeVar("T")
@@ -22,7 +22,7 @@ def unique(
             continue
         if value in first:
             wrong = f"{what} {shown(value)} is there twice"
-            report.add(entry.place(key), wrong, f"the first is in line {first[value].at[0]}; keep one or correct this")
+            report.add(entry.place(key), wrong, f"the first is in {line(first[value].at)}; keep one or correct this")
         else:
             first[value] = entry
     return first

@@ -3,11 +3,13 @@
 from driveblocks.maps.form import address_text
 from driveblocks.maps.model import Act, Bit, Does, Drive, Register, Value
 from driveblocks.maps.problem import Report
+from driveblocks.meaning.pattern import WORD
 from driveblocks.meaning.words import DOES, KINDS, MOTIONS, STOPS, UNKNOWN, Cause, Command, Words, Write, words
 
 _KIND = {does: act for act, does in KINDS.items()}
 """How each stop stops."""
 _ORDER = "write the direction first and the run bit last"
+_MOST_TOLD = 3
 _CORRECT = "correct the command, or what the register's row says that it `does`"
 
 
@@ -78,16 +80,23 @@ def _wrong(command: Command, write: Write, cause: Cause, act: Act | None = None)
     return f"{where}, where {cause} {DOES[act or ('starts' if 'starts' in cause.effect.acts else 'jogs')]}"
 
 
-def _lacks(command: Command, write: Write, act: Act) -> str:
-    """That nothing of a write does what it must."""
-    return f"`{command.does}` writes {write.word:04X}H to {address_text(write.register)}, where nothing {DOES[act]}"
+def _lacks(known: Words, command: Command, write: Write, act: Act) -> str:
+    """That nothing of a write does what it must, and what the fields do that it gives a value."""
+    where = f"`{command.does}` writes {write.word:04X}H to {address_text(write.register)}, where nothing {DOES[act]}"
+    named = [each for each in known.of(write).certain(write.held) if write.names >> each.field.first & each.field.ones]
+    told = [f"{each} {_does(each)}" for each in named if each.value or write.names != WORD]
+    return f"{where}: {', '.join(told[:_MOST_TOLD])}" if told else where
+
+
+def _does(cause: Cause) -> str:
+    return " and ".join(DOES[act] for act in sorted(cause.effect.acts) if act in DOES) or "does nothing"
 
 
 def _motion(known: Words, command: Command, moving: list[tuple[int, Write, Cause]], report: Report) -> None:
     """Note a motion that does not move, that is of the other kind or way, or that stops or resets as well."""
     wanted: Act = "starts" if command.does.startswith("run") else "jogs"
     if not moving:
-        report.miss(command.last.at, _lacks(command, command.last, wanted), _CORRECT)
+        report.miss(command.last.at, _lacks(known, command, command.last, wanted), _CORRECT)
         return
     number, write, cause = moving[-1]
     if wanted not in cause.effect.acts or not cause.effect.declared:
@@ -126,7 +135,7 @@ def _way(known: Words, command: Command, number: int, report: Report) -> None:
             return
     ways = {act for word in known.registers for one in word.causes(UNKNOWN) for act in one.effect.acts}
     if right in ways | {"reverses"} and right not in sure:
-        report.miss(write.at, _lacks(command, write, right), _CORRECT)
+        report.miss(write.at, _lacks(known, command, write, right), _CORRECT)
 
 
 def _stop(known: Words, command: Command, report: Report) -> None:
@@ -136,7 +145,7 @@ def _stop(known: Words, command: Command, report: Report) -> None:
     kind = word.stops(write.held)
     cause = word.gives(kind, write.held) if kind else None
     if kind is None or cause is None:
-        report.miss(write.at, _lacks(command, write, wanted), _CORRECT)
+        report.miss(write.at, _lacks(known, command, write, wanted), _CORRECT)
     elif kind != wanted and not (wanted == "ends_jog" and word.gives(wanted, write.held)):
         report.add(write.at, _wrong(command, write, cause, kind), _CORRECT)
 
@@ -144,4 +153,4 @@ def _stop(known: Words, command: Command, report: Report) -> None:
 def _reset(known: Words, command: Command, report: Report) -> None:
     """Note a fault reset that resets nothing."""
     if not any(known.of(write).gives("resets", write.held) for write in command.writes):
-        report.miss(command.last.at, _lacks(command, command.last, "resets"), _CORRECT)
+        report.miss(command.last.at, _lacks(known, command, command.last, "resets"), _CORRECT)

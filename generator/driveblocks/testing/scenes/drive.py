@@ -258,6 +258,7 @@ def _gauge(gauge: Gauge) -> str:
         "motor_temperature": "50000",
         "operating_time": "100000",
         "energy": "12000",
+        "motor_torque": "Live",
     }[gauge.shows]
     counts = f"{milli} / {gauge.milli}"
     if gauge.shift is not None:

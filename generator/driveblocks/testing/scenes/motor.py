@@ -53,7 +53,7 @@ def stand(shows: Shows | None = None, ms: int = 4000) -> Step:
 
 _MORE = {
     "output_speed": 900.0, "output_torque": 50.0, "relative_power": 30.0, "drive_temperature": 40.0,
-    "motor_temperature": 50.0, "operating_time": 100.0, "energy": 12.0,
+    "motor_temperature": 50.0, "operating_time": 100.0, "energy": 12.0, "motor_torque": 5.0,
 }  # fmt: skip
 """What else a drive can show, and its value at 30 Hz of the simulated motor."""
 _UNMEASURED: Shows = {f"Motor.Diagnosis.{each.valid}": False for each in MEASURED.values()}
