@@ -341,7 +341,7 @@ def test_the_templates_get_what_the_drive_says_of_itself_or_nothing() -> None:
     assert (maximum.word.address, maximum.scale) == (0x2004, Decimal("0.1"))
     assert block.reading.roles.verify == (1,)
     assert {name: drive_block(drive).own["feeds"] for name, drive in shapes().items()} == {
-        "cia402": "any", "profidrive": "reference", "pulse": "read", "two_registers": "run", "active_low": None,
+        "cia402": "polls", "profidrive": "reference", "pulse": "polls", "two_registers": "run", "active_low": None,
         "packed": None,
     }  # fmt: skip
     bare = drive_block(shapes()["profidrive"])

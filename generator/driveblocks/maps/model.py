@@ -49,8 +49,10 @@ Measure = Literal[
 """What a register can show on a pin of the drive block."""
 OpenScale = Literal["FrequencyScale", "CurrentScale", "VoltageScale", "DcVoltageScale", "PowerScale"]
 """A scale of a measure in `VFD_Settings`."""
-Feed = Literal["read", "reference", "run", "any"]
+Feed = Literal["any", "reads", "writes"]
 """What a drive's own watchdog takes for a sign of life of its master."""
+Counts = Literal["running", "always", "bus_in_command"]
+"""When it counts: while the motor runs, at standstill, too, or while the bus is in command of the drive."""
 Reacts = Literal["stop", "quick_stop", "coast_stop", "trips", "runs_on", "other_speed"]
 """What a drive does by itself when its line is silent; the stops are those of the commands."""
 By = Literal["edge", "level"]
@@ -946,9 +948,17 @@ class Watchdog(Entry):
     """The drive's own watchdog of a silent line: what feeds it, when it acts, and what it then does."""
 
     feeds: Feed | None = option(
-        "what it takes for a sign of life: a read, a written reference, a written run command, or any good frame; left "
-        "out where the manual does not say",
-        "reference",
+        "what it takes for a sign of life: any good frame, any good read, or any good write; left out where the manual "
+        "does not say",
+        "writes",
+    )
+    fed_by: tuple[Address, ...] = option(
+        "in the place of `feeds`: the registers whose writes alone it takes for one", "[0001H]", default=()
+    )
+    counts: Counts | None = option(
+        "when it counts: while the motor runs, always, so that it acts at standstill, too, or while the bus is in command; "
+        "left out where the manual does not say, which is taken for `running`",
+        "always",
     )
     time: SilenceTime | None = option(
         "after how much silence it acts", "{setting: P14.04, milliseconds: 100, source: ...}"
