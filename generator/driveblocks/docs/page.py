@@ -338,6 +338,7 @@ def _conduct(drive: Drive) -> list[tuple[str, str]]:
         ("The bus is in command", conduct.in_command(drive)),
         ("The drive is of this family", conduct.recognised(drive)),
         ("Its own maximum frequency", conduct.own_maximum(drive)),
+        ("The speed asked for is below its lower limit", conduct.lower_limit(drive)),
     ]
 
 

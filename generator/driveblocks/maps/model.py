@@ -1003,6 +1003,10 @@ class Operation(Entry):
         "known, too",
         "{register: 0303H, source: ...}",
     )
+    lower_limit: Id | None = option(
+        "the parameter that holds the lower limit of the speed: with a reference below it, of 0 too, the motor may turn at it",
+        "P00.05",
+    )
 
     @property
     def by_sign(self) -> bool:

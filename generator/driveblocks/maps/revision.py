@@ -10,7 +10,7 @@ from structured_text.language.fingerprint import fingerprint
 
 _LATER = {
     "None": "base numbering document trust differs no_address reply_delay group ram_when present_bits needs full_scale "
-    "full_scale_hz warnings silent_ms coil discrete input by counts",
+    "full_scale_hz warnings silent_ms coil discrete input by counts lower_limit",
     "()": "never without one_of visible_when twins otherwise does at_0 fed_by",
     "False": "negative holds",
 }

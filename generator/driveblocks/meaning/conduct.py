@@ -5,6 +5,7 @@ from collections.abc import Iterator
 from driveblocks.maps.form import address_text, bits_text
 from driveblocks.maps.model import Drive
 from driveblocks.meaning import measure
+from driveblocks.meaning.reference import reference
 from driveblocks.meaning.serial import serial
 from driveblocks.meaning.setting import Setting, setting
 from driveblocks.meaning.status import status
@@ -97,6 +98,12 @@ def own_maximum(drive: Drive) -> str:
     if maximum is None or row is None or maximum.quantity.factor is None:
         return UNKNOWN + " where to read it, or on which scale"
     return f"{address_text(maximum.register)}{f' ({row.id})' if row.id else ''} x {maximum.quantity.factor} Hz"
+
+
+def lower_limit(drive: Drive) -> str:
+    """What the motor does where less is asked for than the drive gives."""
+    one = reference(drive).lower_limit
+    return f"{one}: with less, 0 too, the motor may turn at it" if one else UNKNOWN + " whether 0 Hz may turn the motor"
 
 
 def silenced(drive: Drive) -> str | None:
