@@ -313,7 +313,7 @@ def test_show_lists_what_the_drive_does_by_itself_and_says_of_itself(tmp_path: P
     assert "own maximum 2004H (P1.08) x 0.1 Hz (table 2)" in page
     assert "identity 2003H = 786 (table 2)" in page
     for shape, says in (
-        ("profidrive", "cable cut the motor coasts; after 2003H x 1 ms; fed by any good write; it counts at standstill, too (section 1)"),
+        ("profidrive", "after 2003H x 1 ms; fed by any good write; it counts at standstill, too (section 1)"),
         ("pulse", "the motor stops quickly; fed by any good read; the manual does not say after how long (section 1)"),
         ("two_registers", "the motor ramps down; fed by writes to 1002H alone; the manual does not say after how long"),
         ("active_low", "cable cut the manual does not say: count on a motor that runs on"),

@@ -956,8 +956,8 @@ class Watchdog(Entry):
         "in the place of `feeds`: the registers whose writes alone it takes for one", "[0001H]", default=()
     )
     counts: Counts | None = option(
-        "when it counts: while the motor runs, always, so that it acts at standstill, too, or while the bus is in command; "
-        "left out where the manual does not say, which is taken for `running`",
+        "when it counts: while the motor runs, always, so that it acts at standstill, too, or while the bus is in "
+        "command; left out where the manual does not say, which is taken for `running`",
         "always",
     )
     time: SilenceTime | None = option(
@@ -1004,7 +1004,7 @@ class Operation(Entry):
         "{register: 0303H, source: ...}",
     )
     lower_limit: Id | None = option(
-        "the parameter that holds the lower limit of the speed: with a reference below it, of 0 too, the motor may turn at it",
+        "the parameter that holds the lower limit of the speed: with a reference below it, 0 too, the motor may turn at it",
         "P00.05",
     )
 

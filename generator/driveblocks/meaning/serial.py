@@ -155,8 +155,8 @@ def _delay(drive: Drive, one: ReplyDelay) -> Delay:
 
 
 def delivered(drives: Iterable[Drive]) -> tuple[int, Character]:
-    """Bit rate and character that all of some drives have as delivered; where they differ, the usual ones."""
-    found = {(serial(each).rate, serial(each).character) for each in drives}
+    """Bit rate and character that some drives have as delivered, as far as known; where they differ, the usual ones."""
+    found = {(one.rate, one.character) for one in map(serial, drives) if one.known}
     return found.pop() if len(found) == 1 else (USUAL_RATE, Character())
 
 

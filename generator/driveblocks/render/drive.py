@@ -339,7 +339,8 @@ def _own(drive: Drive) -> dict[str, object]:
     return {
         "source": context.source_of(drive, words(drive).stop.source), "prefix": drive.prefix, "serial": serial(drive),
         "family_number": family_number(drive.prefix), "dialect": refusals(drive), "busy": busy(drive),
-        "second_hand": second_hand(drive), "checked": checked(drive), "feeds": feeds(drive), "fed_at_rest": at_rest(drive),
+        "second_hand": second_hand(drive), "checked": checked(drive), "feeds": feeds(drive),
+        "fed_at_rest": at_rest(drive),
     }  # fmt: skip
 
 

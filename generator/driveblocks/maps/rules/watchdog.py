@@ -51,7 +51,7 @@ def _fed(drive: Drive, watchdog: Watchdog, report: Report) -> None:
     runs = [write.register for each in drive.operation.commands if each.does == "run_forward" for write in each.writes]
     if watchdog.fed_by and not {*runs, drive.operation.reference.register} & {*watchdog.fed_by}:
         wrong = "no write of the drive block feeds it: neither the reference nor the run command is among `fed_by`"
-        report.miss(watchdog.place("fed_by"), wrong, "name theirs, if the manual does; else leave it out, and add a `note`")
+        report.miss(watchdog.place("fed_by"), wrong, "name theirs, if the manual does; else say it in the `note`")
 
 
 def _needed(watchdog: Watchdog, settings: dict[str, Setting], report: Report) -> None:
