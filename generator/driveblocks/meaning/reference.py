@@ -79,5 +79,5 @@ def reference(drive: Drive) -> Reference:
 
 def _parameter(drive: Drive, id_: str | None) -> str | None:
     """A parameter as its manual names it."""
-    rows = (*drive.settings, *(row for _, row in drive.registers()))
-    return next((f"{id_} ({one.name})" if one.name else id_ for one in rows if id_ and one.id == id_), None)
+    names = {row.id: row.name for _, row in drive.registers()} | {one.id: one.name for one in drive.settings}
+    return None if id_ is None else f"{id_} ({name})" if (name := names.get(id_)) else id_
