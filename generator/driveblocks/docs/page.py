@@ -20,7 +20,7 @@ from driveblocks.meaning.reference import reference
 from driveblocks.meaning.serial import serial
 from driveblocks.meaning.setting import Setting, settings
 from driveblocks.meaning.status import status
-from driveblocks.meaning.watchdog import at_rest, feeds, watchdog
+from driveblocks.meaning.watchdog import at_rest, counts_at_rest, feeds, watchdog
 from driveblocks.meaning.words import words
 from driveblocks.platforms import CANONICAL, EXPORTS, PLATFORMS, cost
 from driveblocks.platforms.ladder import diagram
@@ -302,6 +302,7 @@ def _page(drive: Drive, checked: Checked, values: Mapping[str, Any], own: Own, p
         conduct=_conduct(drive),
         feeds=feeds(drive),
         fed_at_rest=at_rest(drive),
+        counts_at_rest=counts_at_rest(drive),
         proved_tripped=timing.proves_while_tripped(drive),
         states=STATES,
         turn_round=_turn_round(drive),

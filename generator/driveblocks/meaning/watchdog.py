@@ -85,7 +85,12 @@ def feeds(drive: Drive) -> str | None:
     return "run" if own.fed_by else "polls"
 
 
-def at_rest(drive: Drive) -> bool:
-    """Whether a drive block has to feed it at standstill, too: by a reference of 0, which moves nothing."""
+def counts_at_rest(drive: Drive) -> bool:
+    """Whether it counts at standstill, too."""
     own = watchdog(drive)
-    return own is not None and own.counts in ("always", "bus_in_command") and feeds(drive) in (None, "reference")
+    return own is not None and own.counts in ("always", "bus_in_command")
+
+
+def at_rest(drive: Drive) -> bool:
+    """Whether a drive block feeds it at standstill, too: by a reference of 0, which moves nothing."""
+    return counts_at_rest(drive) and feeds(drive) in (None, "reference")
