@@ -184,18 +184,19 @@ def test_the_page_says_what_a_drive_does_by_itself_and_what_the_manual_does_not_
     said = by_itself(drives()["SN300G5"])
     assert list(said) == [
         "The cable is cut", "The drive trips", "The bus is in command", "The drive is of this family",
-        "Its own maximum frequency",
+        "Its own maximum frequency", "The speed asked for is below its lower limit",
     ]  # fmt: skip
-    cut, trips, *rest = said.values()
+    cut, trips, *rest, below = said.values()
     for words in ("1 emergency stop (factory): the motor stops quickly", "2 coast stop: the motor coasts"):
         assert words in cut
     for words in ("H5-05 = 0: the motor runs on", "does not say after how long nor what feeds", "more than 2 s before"):
         assert words in cut
     assert trips == "The manual does not say whether the motor coasts or is ramped down."
     assert all(each.startswith("The manual does not say") for each in rest)
+    assert below == "D2-02 (Frequency reference lower limit): with less, 0 too, the motor may turn at it."
     assert list(by_itself(shapes()["cia402"]).values())[1:] == [
         "The output is switched off and the motor coasts.", "While 2000H bit 9 = 1.", "2003H = 786.",
-        "2004H (P1.08) x 0.1 Hz.",
+        "2004H (P1.08) x 0.1 Hz.", "The manual does not say whether 0 Hz may turn the motor.",
     ]  # fmt: skip
 
 
@@ -517,3 +518,10 @@ def test_the_page_of_swapping_says_whose_stop_moves_a_drive_of_another_make() ->
     files = [*generic(LANGUAGES), *library_of("mine", drive, LANGUAGES)]
     (row,) = [each for each in documents(files, [drive])["docs/Swapping.md"].splitlines() if "LOW | CHF |" in each]
     assert "its run forward" in row, "a family that ships counts, too"
+
+
+def test_every_first_motor_says_where_it_turns_though_0_is_asked_for() -> None:
+    for family, says in (("GD200A", "P00.05 (Lower limit of the running frequency)"), ("ATV312", "LSP (Low speed)"),
+                         ("JSCC", "a lower limit that its manual does not give")):  # fmt: skip
+        motor = " ".join(first_motor("iec61131", drives()[family]).text.split())
+        assert f"at 0.0 the drive runs, and the motor may turn at {says} *)" in motor

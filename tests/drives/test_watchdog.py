@@ -1,5 +1,6 @@
 """A drive that notices a silent line: what feeds its watchdog is sent three times within its time, and no more."""
 
+from dataclasses import replace
 from itertools import pairwise
 
 import pytest
@@ -34,7 +35,7 @@ def test_a_line_that_does_not_feed_it_says_so(kind: str) -> None:
     bench.until(lambda: bench.reason() == "HEARTBEAT", 2 * TIME_MS)
 
 
-@pytest.mark.parametrize("kind", ["CHF", "PRO"])
+@pytest.mark.parametrize("kind", ["CHF", "GD200A"])
 def test_a_reference_of_0_feeds_it_while_the_motor_ramps_down(kind: str) -> None:
     bench = fed(kind).put(RunForward=False)
     bench.until(lambda: stops(bench, bench.frames[-1:]))
@@ -49,6 +50,45 @@ def test_a_reference_of_0_feeds_it_while_the_motor_ramps_down(kind: str) -> None
     assert max(apart) <= 700
     bench.until(lambda: bench.shows("StopConfirmed"), 1000)
     assert not sent(bench, bench.run(3000), "reference")
+
+
+def test_a_watchdog_that_counts_at_standstill_is_fed_there() -> None:
+    """It trips within half a second of every reset where nobody writes; reads do not feed it."""
+    bench = Bench("PRO", habits=replace(SLOW, watchdog_ms=500, watchdog_code=1)).put(WatchdogMs=500, RefreshMs=OFF)
+    bench.until(lambda: bench.shows("StopConfirmed"), 2000)
+    references = sent(bench, bench.run(4000), "reference")
+    assert {each.word for each in references} == {0}
+    assert max(b.ms - a.ms for a, b in pairwise(references)) <= 250
+    assert (bench.shows("StopConfirmed"), bench.out("Error")) == (True, False)
+    bench.drives[0].trip(1)
+    bench.drives[0].clear_cause()
+    bench.until(lambda: bench.shows("Fault"), 500)
+    bench.put(FaultReset=True).until(lambda: bench.shows("Ready"), 3000)
+    bench.run(2000)
+    bench.put(FaultReset=False).running()
+
+
+def test_what_is_not_fed_at_standstill_trips_there() -> None:
+    bench = Bench("PRO", habits=replace(SLOW, watchdog_ms=500, watchdog_code=1)).put(RefreshMs=OFF)
+    bench.until(lambda: bench.shows("Fault"), 3000)
+    bench.put(FaultReset=True).run(3000)
+    assert bench.shows("Fault")
+
+
+def test_who_only_reads_feeds_nothing_at_standstill() -> None:
+    bench = Bench("PRO", habits=SLOW).put(WatchdogMs=500, MonitorOnly=True)
+    bench.run(2000)
+    assert not [each for each in bench.run(3000) if not each.read]
+
+
+def test_a_reference_that_was_lost_at_standstill_is_no_error() -> None:
+    bench = Bench("PRO", habits=SLOW).put(WatchdogMs=500)
+    bench.until(lambda: bench.shows("StopConfirmed"), 2000)
+    bench.spoil = lambda frame, reply: reply if frame.read else None
+    bench.run(300)
+    bench.spoil = lambda _, reply: reply
+    bench.run(1000)
+    assert (bench.shows("StopConfirmed"), bench.out("Error")) == (True, False)
 
 
 def test_a_drive_that_does_not_stop_in_time_is_left_to_its_watchdog() -> None:

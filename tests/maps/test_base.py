@@ -145,9 +145,9 @@ def test_a_base_may_be_one_that_ships(tmp_path: Path) -> None:
 def test_a_document_of_the_base_goes_with_the_last_that_names_it(tmp_path: Path) -> None:
     guide = "documents: [{id: guide, title: Guide, publisher: Acme}]\nabsent:"
     base = BASE.replace("absent:", guide).replace(
-        "find_out: ask the maker}", "find_out: ask, corroborated: [{document: guide, page: page 2, reads: nothing}]}"
+        "find_out: ask the maker}", "find_out: ask, corroborated: [{document: guide, page: page 2, reads: nothing}]}", 1
     )
-    (what,) = (one.what for one in loads(BASE, "acme.yaml").absent)
+    what = loads(BASE, "acme.yaml").absent[0].what
     for more, left in (("", ["guide", "acme"]), (f"absent: [{{what: {what}, corroborated: []}}]\n", ["acme"])):
         assert [one.id for one in load(write(tmp_path, more, base)).documents] == left
     assert "nothing refers to document `mine`" in "".join(

@@ -39,7 +39,7 @@ def test_sections_are_counted_as_one_counts_by_hand(held: Counts) -> None:
 def test_kinds_are_counted_as_one_counts_by_hand(held: Counts) -> None:
     assert (held.settings, held.setting_values) == (4, Tally(enums=1, enum_values=3))
     assert (held.faults, held.errors, held.frames) == (4, 4, 9)
-    assert (held.errata, held.absent, held.notices) == (8, 2, 2)
+    assert (held.errata, held.absent, held.notices) == (8, 3, 2)
     assert held.total == Tally(registers=27, bits=17, enums=5, enum_values=13)
 
 
@@ -68,7 +68,7 @@ def test_the_table_has_a_line_for_each_drive_and_register_table(drive: Drive) ->
     lines = inventory.table({EXAMPLE: drive}, CHECKOUT).splitlines()
     assert lines[2] == (
         "| [**EX100**](tests/maps/example.yaml) Example Drives EX100 series "
-        "| 27 | 17 | 5 | 13 | 4 | 4 | 4 | 9 | 8 | 2 |"
+        "| 27 | 17 | 5 | 13 | 4 | 4 | 4 | 9 | 8 | 3 |"
     )  # fmt: skip
     assert lines[3] == "| · Commands | 4 | 6 | 2 | 5 |  |  |  |  |  |  |"
     assert lines[-1] == "| · keypad settings |  |  | 1 | 3 | 4 |  |  |  |  |  |"
@@ -81,8 +81,8 @@ def test_the_front_table_has_a_line_for_each_maker_with_its_drives_and_sums(driv
     maps = {folder / f"{name}.yaml": one for name, one in (("a", drive), ("b", other), ("c", drive))}
     link = "[EX100 series](blocks/docs/EX100_Drive.md)"
     assert inventory.front(maps, CHECKOUT).splitlines()[2:] == [
-        f"| Another | {link} | 8 | 2 |",
-        f"| Example Drives | {link}, {link} | 16 | 4 |",
+        f"| Another | {link} | 8 | 3 |",
+        f"| Example Drives | {link}, {link} | 16 | 6 |",
     ]
 
 

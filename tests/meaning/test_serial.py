@@ -101,8 +101,18 @@ def test_a_run_speaks_as_the_drives_of_its_program_are_delivered(monkeypatch: py
 
 def test_simulated_drives_speak_as_they_are_delivered_unless_a_person_says_otherwise() -> None:
     assert simulate.Setup(simulate.Words(drives=("jscc",)))._its.form == serial(JSCC).character.form == "8E1"
-    assert simulate.Setup(simulate.Words(drives=("jscc", "chf")))._its.form == "8N1"
+    assert simulate.Setup(simulate.Words(drives=("jscc", "chf")))._its.form == "8E1"  # of CHF nothing is known
+    assert simulate.Setup(simulate.Words(drives=("jscc", "sn300g5")))._its.form == "8N1"
     assert simulate.Setup(simulate.Words(drives=("jscc",), form="7n2"))._its.bits == 10
+    rates = [simulate.Setup(simulate.Words(drives=(one,)))._rate for one in ("jscc", "sn300g5", "chf")]
+    assert rates == [*(serial(shipped.drives()[one]).rate for one in ("JSCC", "SN300G5")), 9600]
+    assert simulate.Setup(simulate.Words(drives=("jscc",), baud=38400))._rate == 38400
+
+
+def test_a_line_takes_what_is_known_of_its_drives_where_not_all_manuals_say_it() -> None:
+    by_prefix = shipped.drives()
+    assert delivered([by_prefix["CHF"], by_prefix["JSCC"]]) == (19200, character("8E1"))
+    assert delivered([by_prefix["CHF"]]) == (9600, character("8N1"))
 
 
 def test_a_manual_that_names_rates_and_not_the_factory_s_is_not_said_to() -> None:

@@ -40,6 +40,8 @@ ONE_WORD = ("PF4", *VARIANTS)
 """Families whose reads have one length: a copy of a reply passes for the next, as docs/line.md says."""
 READS_FEED = ("MX2",)
 """Drives whose watchdog any good frame feeds, so that no reference is sent for it alone (SJ700, page 4-129)."""
+FEEDS_AT_REST = {"PF525": bytes.fromhex("06 2001 0000")}
+"""Drives whose watchdog counts at standstill, too, and what feeds it there: a reference of 0 (520-UM001O, C125)."""
 QUIET_US = 2_000_000
 """A drive that has been stopped for so long is written to no more."""
 START_US = 3_000_000
@@ -216,6 +218,7 @@ class Claims:
             and self.well(index, QUIET_US)
             and not any_of((*MOVES, "Restart"), pins)
             and not self.mistaken(index, now_us)
+            and body[1:6] != FEEDS_AT_REST.get(self.bench.types[index])
         ):
             self.judge.tell(index, "quiet", f"a write to {self.bench.told(index)}")
 

@@ -24,6 +24,10 @@ UNITS = {
     "energy": ("Energy", "kWh", 0.1),
 }  # fmt: skip
 SCALED_BY_SETTING = ("output_current", "output_voltage", "dc_bus_voltage", "output_power")
+LOOKED_FOR = (
+    "serial", "identity", "watchdog", "warnings", "commanded_by", "own_maximum", "lower_limit", "trip_output",
+)  # fmt: skip
+"""What a map has, or says that it is absent."""
 LANGUAGES = ("en", "en", "zh", "de")
 TIMES = {"trips": "Trip", "coast_stop": "Coast stop", "stop": "Stop by the ramp", "runs_on": "Run on"}
 
@@ -403,12 +407,13 @@ def serial(sheet: Sheet) -> Row:
     return made
 
 
-def watchdog(sheet: Sheet, code: str) -> Row:
+def watchdog(sheet: Sheet, code: str, speed: str) -> Row:
     """What the drive does when its line is silent."""
     does = sheet.chance.sample(sorted(TIMES), sheet.chance.randint(1, 3))
     made: Row = {"source": "section 1", "reactions": [{"does": does[0]}]}
-    if sheet.maybe(0.8):
-        made["feeds"] = sheet.chance.choice(("any", "read", "reference", "run"))
+    feeds: tuple[Row, ...] = ({"feeds": "any"}, {"feeds": "reads"}, {"feeds": "writes"}, {"fed_by": [speed]}, {})
+    made |= sheet.chance.choice(feeds)
+    made |= sheet.chance.choice(({}, {"counts": "running"}, {"counts": "always"}, {"counts": "bus_in_command"}))
     if len(does) > 1:
         names = sheet.listed(*(TIMES[each] for each in does))
         made["chosen_by"] = sheet.setting(5, "Reaction to silence", needed={"why": "never run on"}, values=names)
@@ -483,12 +488,17 @@ def draw(seed: int) -> Row:
     made = head(sheet, seed) | {"serial": serial(sheet)}
     more: Row = {"storage": memory, "operation": operation, "faults": trouble}
     more |= {"warnings": warnings(sheet, values + 0x90)} if sheet.maybe(0.3) else {}
-    more |= {"watchdog": watchdog(sheet, trouble["codes"][0]["code"])} if sheet.maybe(0.6) else {}
+    more |= {"watchdog": watchdog(sheet, trouble["codes"][0]["code"], speed["register"])} if sheet.maybe(0.6) else {}
     if sheet.maybe(0.3):
         sheet.shown.append(sheet.named("Product code", address=sheet.place(values + 0xA0)))
         more["identity"] = {"all": [{"register": sheet.place(values + 0xA0), "equals": hexadecimal(seed % 60000 + 1)}],
                             "source": "table 2", "why": "each family has a code of its own"}  # fmt: skip
     made |= rest(sheet, shown)
+    if sheet.maybe():
+        operation["lower_limit"] = sheet.setting(8, "Lowest frequency", default="0", range={"min": 0, "max": 500})
+    said = {*more, *operation, *(["trip_output"] if "trip_output" in trouble else [])}
+    made["absent"].append({"what": "what is missing here", "about": [each for each in LOOKED_FOR if each not in said],
+                           "matters": "nobody knows", "find_out": "ask the maker"})  # fmt: skip
     made["settings"] = sheet.settings
     tables = [table("commands", "rw", sheet.words, sheet.text("Commands")),
               table("status", "r", sheet.shown, sheet.text("Status"))]  # fmt: skip

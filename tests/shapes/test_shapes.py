@@ -313,9 +313,9 @@ def test_show_lists_what_the_drive_does_by_itself_and_says_of_itself(tmp_path: P
     assert "own maximum 2004H (P1.08) x 0.1 Hz (table 2)" in page
     assert "identity 2003H = 786 (table 2)" in page
     for shape, says in (
-        ("profidrive", "cable cut the motor coasts; after 2003H x 1 ms; fed by a written reference (section 1)"),
-        ("pulse", "the motor stops quickly; fed by a read; the manual does not say after how long (section 1)"),
-        ("two_registers", "the motor ramps down; fed by a written run command; the manual does not say after how long"),
+        ("profidrive", "after 2003H x 1 ms; fed by any good write; it counts at standstill, too (section 1)"),
+        ("pulse", "the motor stops quickly; fed by any good read; the manual does not say after how long (section 1)"),
+        ("two_registers", "the motor ramps down; fed by writes to 1002H alone; the manual does not say after how long"),
         ("active_low", "cable cut the manual does not say: count on a motor that runs on"),
         ("active_low", "trip the manual does not say whether the motor coasts or is ramped down"),
         ("active_low", "identity the manual does not say how to see it"),
@@ -341,7 +341,7 @@ def test_the_templates_get_what_the_drive_says_of_itself_or_nothing() -> None:
     assert (maximum.word.address, maximum.scale) == (0x2004, Decimal("0.1"))
     assert block.reading.roles.verify == (1,)
     assert {name: drive_block(drive).own["feeds"] for name, drive in shapes().items()} == {
-        "cia402": "any", "profidrive": "reference", "pulse": "read", "two_registers": "run", "active_low": None,
+        "cia402": "polls", "profidrive": "reference", "pulse": "polls", "two_registers": "run", "active_low": None,
         "packed": None,
     }  # fmt: skip
     bare = drive_block(shapes()["profidrive"])

@@ -17,7 +17,7 @@ from driveblocks.commands import FILE, refuse
 @click.option("--port", metavar="DEVICE", help="Serve a serial port, such as COM3 or /dev/ttyUSB0: a REAL PORT.")
 @click.option("--tcp", metavar="127.0.0.1:PORT", help="Serve serial bytes over TCP, on this computer only.")
 @click.option("--pty", is_flag=True, help="Serve a pseudo-terminal (not on Windows); its name is printed.")
-@click.option("--baud", metavar="RATE", type=int, default=19200, help="Bit rate, over TCP and --pty, too.")
+@click.option("--baud", metavar="RATE", type=int, help="Bit rate, over TCP, too; else as the drives are delivered.")
 @click.option("--format", "form", metavar="8N1", help="Data bits, parity, stop bits; else as the drives are delivered.")
 @click.option("--ascii", is_flag=True, help="MODBUS ASCII instead of RTU.")
 @click.option("--scenario", type=FILE, metavar="FILE.yaml", help="Events and their times, such as - at 3 s: trip OC")

@@ -20,7 +20,7 @@ from driveblocks.meaning.reference import reference
 from driveblocks.meaning.serial import serial
 from driveblocks.meaning.setting import Setting, settings
 from driveblocks.meaning.status import status
-from driveblocks.meaning.watchdog import feeds, watchdog
+from driveblocks.meaning.watchdog import at_rest, counts_at_rest, feeds, watchdog
 from driveblocks.meaning.words import words
 from driveblocks.platforms import CANONICAL, EXPORTS, PLATFORMS, cost
 from driveblocks.platforms.ladder import diagram
@@ -301,6 +301,8 @@ def _page(drive: Drive, checked: Checked, values: Mapping[str, Any], own: Own, p
         status=status(drive),
         conduct=_conduct(drive),
         feeds=feeds(drive),
+        fed_at_rest=at_rest(drive),
+        counts_at_rest=counts_at_rest(drive),
         proved_tripped=timing.proves_while_tripped(drive),
         states=STATES,
         turn_round=_turn_round(drive),
@@ -337,6 +339,7 @@ def _conduct(drive: Drive) -> list[tuple[str, str]]:
         ("The bus is in command", conduct.in_command(drive)),
         ("The drive is of this family", conduct.recognised(drive)),
         ("Its own maximum frequency", conduct.own_maximum(drive)),
+        ("The speed asked for is below its lower limit", conduct.lower_limit(drive)),
     ]
 
 

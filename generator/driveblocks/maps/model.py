@@ -49,8 +49,10 @@ Measure = Literal[
 """What a register can show on a pin of the drive block."""
 OpenScale = Literal["FrequencyScale", "CurrentScale", "VoltageScale", "DcVoltageScale", "PowerScale"]
 """A scale of a measure in `VFD_Settings`."""
-Feed = Literal["read", "reference", "run", "any"]
+Feed = Literal["any", "reads", "writes"]
 """What a drive's own watchdog takes for a sign of life of its master."""
+Counts = Literal["running", "always", "bus_in_command"]
+"""When it counts: while the motor runs, at standstill, too, or while the bus is in command of the drive."""
 Reacts = Literal["stop", "quick_stop", "coast_stop", "trips", "runs_on", "other_speed"]
 """What a drive does by itself when its line is silent; the stops are those of the commands."""
 By = Literal["edge", "level"]
@@ -89,6 +91,8 @@ _HOLDS = (
     "its stop holds the motor still by its level, whatever the others of the word say; only where the manual says that "
     "it wins"
 )
+_NO_CODE = "number on the keypad; left out where a switch chooses, or nothing"
+_DELIVERED = "what a drive without codes has as delivered; of a single one it need not be said"
 _WORDING = (
     "the manual's own words where it is neither English nor Chinese; of an English manual, what is printed where the "
     "English departs from it"
@@ -269,6 +273,16 @@ class Switch(Entry):
 
 
 @dataclass(frozen=True, kw_only=True)
+class Edition(Entry):
+    """The factory setting of one edition of a drive or of its manual."""
+
+    edition: Str = fact("the edition or firmware, as printed", "07/2012")
+    default: Str = fact("its factory setting as printed", '"3"')
+    source: English = fact("where that says so", "page 111")
+    document: Word | None = option(_SAYS_SO, "fieldbus_guide")
+
+
+@dataclass(frozen=True, kw_only=True)
 class Setting(Named):
     """A parameter that a person sets on the keypad for communication."""
 
@@ -279,6 +293,11 @@ class Setting(Named):
     range: Range | None = option("allowed numbers", "{min: 0, max: 4}")
     unit_step: Number | None = option("smallest step", "1")
     default: Str | None = option("factory setting as printed", '"3"')
+    editions: tuple[Edition, ...] = option(
+        "in the place of `default`, where it differs by edition: a person has to look it up, so it is `needed`",
+        "[{edition: 07/2012, default: ...}, {edition: 09/2014, default: ...}]",
+        default=(),
+    )
     values: tuple[Value, ...] = option(
         "meaning of each number", "[{value: 0, name: 1200 bit/s, zh: 1200BPS}]", default=()
     )
@@ -306,18 +325,28 @@ class ModeCode(Entry):
 class BaudCode(Entry):
     """A code of the setting that chooses the bit rate."""
 
-    code: Number = fact("number on the keypad", "3")
+    code: Number | None = option(_NO_CODE, "3")
     baud: Count = fact("bits per second", "9600")
+    delivered: bool = option(_DELIVERED, "true", default=False)
 
 
 @dataclass(frozen=True, kw_only=True)
 class FormatCode(Entry):
     """A code of the setting that chooses parity and stop bits; what the manual does not say stays out."""
 
-    code: Number = fact("number on the keypad", "1")
+    code: Number | None = option(_NO_CODE, "1")
     parity: Literal["none", "even", "odd"] = fact("parity bit", "even")
     data_bits: Literal[7, 8] | None = option("data bits", "8")
     stop_bits: Literal[1, 2] | None = option("stop bits", "1")
+    delivered: bool = option(_DELIVERED, "true", default=False)
+
+
+@dataclass(frozen=True, kw_only=True)
+class StopBitsCode(Entry):
+    """A code of the setting that chooses the stop bits, where another chooses the parity."""
+
+    code: Number = fact("number on the keypad", "1")
+    stop_bits: Literal[1, 2] = fact("stop bits", "2")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -328,6 +357,10 @@ class Choice(Entry):
     document: Word | None = option(_SAYS_SO, "fieldbus_guide")
     setting: Id | None = option("id of the keypad setting", "H5-02")
     default: Number | None = option("factory setting, as a code of the list", "3")
+    digit: Literal[1, 10, 100, 1000] | None = option(
+        "the decimal digit of the setting that is the code, where each digit chooses something else: 1 is the last",
+        "10",
+    )
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -352,6 +385,13 @@ class FormatChoice(Choice):
     codes: tuple[FormatCode, ...] = option(
         "codes of the setting", "[{code: 1, parity: even, data_bits: 8, stop_bits: 1}]", default=()
     )
+
+
+@dataclass(frozen=True, kw_only=True)
+class StopBitsChoice(Choice):
+    """Stop bits, where their setting is not that of the parity."""
+
+    codes: tuple[StopBitsCode, ...] = fact("codes of the setting", "[{code: 0, stop_bits: 1}, {code: 1, stop_bits: 2}]")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -422,6 +462,10 @@ class Serial(Entry):
     mode: ModeChoice = fact("RTU or ASCII", "{modes: [rtu], source: ...}")
     baud: BaudChoice | None = option("bit rates", "{setting: H5-02, default: 3, codes: [...], source: ...}")
     format: FormatChoice | None = option("character formats", "{setting: H5-03, codes: [...], source: ...}")
+    stop_bits: StopBitsChoice | None = option(
+        "stop bits, where a setting of their own chooses them; then `format` has none",
+        "{setting: H5-06, codes: [...], source: ...}",
+    )
     unit: UnitAddress = fact("unit addresses", "{min: 1, max: 247, source: ...}")
     silence: Silence | None = option("pauses around frames", "{characters: 3.5, source: ...}")
     reply_delay: ReplyDelay | None = option(
@@ -949,9 +993,17 @@ class Watchdog(Entry):
     """The drive's own watchdog of a silent line: what feeds it, when it acts, and what it then does."""
 
     feeds: Feed | None = option(
-        "what it takes for a sign of life: a read, a written reference, a written run command, or any good frame; left "
-        "out where the manual does not say",
-        "reference",
+        "what it takes for a sign of life: any good frame, any good read, or any good write; left out where the manual "
+        "does not say",
+        "writes",
+    )
+    fed_by: tuple[Address, ...] = option(
+        "in the place of `feeds`: the registers whose writes alone it takes for one", "[0001H]", default=()
+    )
+    counts: Counts | None = option(
+        "when it counts: while the motor runs, always, so that it acts at standstill, too, or while the bus is in "
+        "command; left out where the manual does not say, which is taken for `running`",
+        "always",
     )
     time: SilenceTime | None = option(
         "after how much silence it acts", "{setting: P14.04, milliseconds: 100, source: ...}"
@@ -995,6 +1047,10 @@ class Operation(Entry):
         "the register of the drive's own maximum frequency, or of what 100 % of the reference is, where its scale is "
         "known, too",
         "{register: 0303H, source: ...}",
+    )
+    lower_limit: Id | None = option(
+        "the parameter with the lower limit of the speed: with a reference below it, 0 too, the motor may turn at it",
+        "P00.05",
     )
 
     @property

@@ -132,7 +132,12 @@ def _set(drive: Drive) -> Iterator[_Said]:
         yield "watchdog", "reactions", [dog, *_named(drive, *switches)]
     if dog and (time := dog.time):
         yield "watchdog", "time", [time, *_named(drive, time.setting), *_rows(drive, [time.register])]
-    for name, choice in {"mode": line.mode, "bit rate": line.baud, "format": line.format}.items():
+    for name, choice in {
+        "mode": line.mode,
+        "bit rate": line.baud,
+        "format": line.format,
+        "stop bits": line.stop_bits,
+    }.items():
         if choice:
             yield "settings", name, [choice, *_named(drive, choice.setting)]
     yield from (("settings", one.id, [one]) for one in drive.settings if one.needed)

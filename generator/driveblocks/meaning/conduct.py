@@ -5,6 +5,7 @@ from collections.abc import Iterator
 from driveblocks.maps.form import address_text, bits_text
 from driveblocks.maps.model import Drive
 from driveblocks.meaning import measure
+from driveblocks.meaning.reference import reference
 from driveblocks.meaning.serial import serial
 from driveblocks.meaning.setting import Setting, setting
 from driveblocks.meaning.status import status
@@ -15,8 +16,9 @@ _DOES = {
     "stop": "the motor ramps down", "quick_stop": "the motor stops quickly", "coast_stop": "the motor coasts",
     "trips": "the drive trips", "runs_on": "the motor runs on", "other_speed": "the motor changes to another speed",
 }  # fmt: skip
-_FEEDS = {
-    "read": "a read", "reference": "a written reference", "run": "a written run command", "any": "any good frame",
+_FEEDS = {"any": "any good frame", "reads": "any good read", "writes": "any good write"}
+_COUNTS = {
+    "running": "while the motor runs", "always": "at standstill, too", "bus_in_command": "while the bus is in command",
 }  # fmt: skip
 _TRIPS = {
     "coasts": "the output is switched off and the motor coasts", "ramps": "the motor is decelerated",
@@ -36,13 +38,17 @@ def _watchdog(drive: Drive, own: Watchdog) -> Iterator[str]:
     yield f"{chosen.id} = {does}" if chosen else does
     if own.off is not None:
         yield f"{own.off[0]} = {own.off[1]}: the motor runs on, whatever else is set"
-    time, fed = own.time, own.feeds
+    time, fed = own.time, _FEEDS.get(own.feeds or "")
+    if own.fed_by:
+        fed = f"writes to {', '.join(map(address_text, own.fed_by))} alone"
     open_ = [*(["after how long"] if time is None else []), *(["what feeds the watchdog"] if fed is None else [])]
     if time is not None:
         where = time.setting if time.setting is not None else address_text(time.register or 0)
         yield f"after {where} x {time.count_ms} ms"
     if fed is not None:
-        yield f"fed by {_FEEDS[fed]}"
+        yield f"fed by {fed}"
+    if own.counts is not None:
+        yield f"it counts {_COUNTS[own.counts]}"
     if open_:
         yield f"{UNKNOWN} {' nor '.join(open_)}"
     if own.note is not None:
@@ -92,6 +98,12 @@ def own_maximum(drive: Drive) -> str:
     if maximum is None or row is None or maximum.quantity.factor is None:
         return UNKNOWN + " where to read it, or on which scale"
     return f"{address_text(maximum.register)}{f' ({row.id})' if row.id else ''} x {maximum.quantity.factor} Hz"
+
+
+def lower_limit(drive: Drive) -> str:
+    """What the motor does where less is asked for than the drive gives."""
+    one = reference(drive).lower_limit
+    return f"{one}: with less, 0 too, the motor may turn at it" if one else UNKNOWN + " whether 0 Hz may turn the motor"
 
 
 def silenced(drive: Drive) -> str | None:

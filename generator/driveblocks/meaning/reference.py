@@ -22,6 +22,8 @@ class Reference:
     """... and its scale is known, so that it needs FullScaleHz, which is 100 %."""
     maximum: str
     """What is 100 %."""
+    lower_limit: str | None
+    """The parameter of the lower limit of the speed, with its name; None: the manual does not say."""
     scaled: bool
     """How many counts there are is known."""
     ratio: Fraction
@@ -63,6 +65,7 @@ def reference(drive: Drive) -> Reference:
         part=part,
         percent=part and scaled,
         maximum=spec.maximum or "the maximum frequency",
+        lower_limit=_parameter(drive, drive.operation.lower_limit),
         scaled=scaled,
         ratio=ratio,
         in_rpm=in_rpm,
@@ -72,3 +75,9 @@ def reference(drive: Drive) -> Reference:
         ranged=bounds is not None,
         pair=("low_first" if has.low < has.high else "high_first") if has.pair else None,
     )
+
+
+def _parameter(drive: Drive, id_: str | None) -> str | None:
+    """A parameter as its manual names it."""
+    names = {row.id: row.name for _, row in drive.registers()} | {one.id: one.name for one in drive.settings}
+    return None if id_ is None else f"{id_} ({name})" if (name := names.get(id_)) else id_

@@ -1,11 +1,21 @@
 """The serial line of a drive: modes, bit rates, characters, addresses, pauses, and what it has as delivered."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from decimal import Decimal
 from math import ceil
 
-from driveblocks.maps.model import Drive, FormatCode, ReplyDelay, kept
+from driveblocks.maps.model import (
+    BaudChoice,
+    BaudCode,
+    Drive,
+    FormatChoice,
+    FormatCode,
+    ReplyDelay,
+    StopBitsChoice,
+    StopBitsCode,
+    kept,
+)
 from driveblocks.meaning.citation import Citation, cited
 from driveblocks.meaning.setting import setting
 from driveblocks.modbus.frame import Mode
@@ -81,6 +91,8 @@ class Serial:
     character: Character
     known: bool
     """The manual says so."""
+    differs: bool
+    """... of each edition something else."""
     units_said: Citation
     lowest: int
     """The unit addresses, from ... to."""
@@ -123,10 +135,11 @@ def serial(drive: Drive) -> Serial:
     """What a map says of the line."""
     told, unit, silence, cast = drive.serial, drive.serial.unit, drive.serial.silence, drive.serial.broadcast
     rates, forms = told.baud, told.format
-    named = [(each.code == rates.default, each.baud) for each in rates.codes] if rates else []
-    written = [(each.code == forms.default, _character(each)) for each in forms.codes] if forms else []
+    named = [(_factory(rates, each), each.baud) for each in rates.codes] if rates else []
+    written = list(_written(forms, told.stop_bits)) if forms else []
+    by = (setting(drive, each.setting) for each in (rates, forms, told.stop_bits) if each)
     return Serial(
-        said=tuple(cited(each) for each in (told.mode, rates, forms, silence) if each),
+        said=tuple(cited(each) for each in (told.mode, rates, forms, told.stop_bits, silence) if each),
         interface=told.interface.en,
         modes=told.mode.modes,
         rates=tuple(each for _, each in sorted(named, key=lambda one: not one[0])),
@@ -134,6 +147,7 @@ def serial(drive: Drive) -> Serial:
         rate=next((each for factory, each in named if factory), USUAL_RATE),
         character=next((each for factory, each in written if factory), Character()),
         known=any(factory for factory, _ in named),
+        differs=any(each.editions for each in by if each),
         units_said=cited(unit),
         lowest=unit.min,
         highest=unit.max,
@@ -155,10 +169,24 @@ def _delay(drive: Drive, one: ReplyDelay) -> Delay:
 
 
 def delivered(drives: Iterable[Drive]) -> tuple[int, Character]:
-    """Bit rate and character that all of some drives have as delivered; where they differ, the usual ones."""
-    found = {(serial(each).rate, serial(each).character) for each in drives}
+    """Bit rate and character that some drives have as delivered, as far as known; where they differ, the usual ones."""
+    found = {(one.rate, one.character) for one in map(serial, drives) if one.known}
     return found.pop() if len(found) == 1 else (USUAL_RATE, Character())
 
 
-def _character(code: FormatCode) -> Character:
-    return Character(code.data_bits or 8, PARITIES[code.parity], code.stop_bits or 1)
+def _factory(choice: BaudChoice | FormatChoice | StopBitsChoice, code: BaudCode | FormatCode | StopBitsCode) -> bool:
+    """Whether a drive as delivered has what a code chooses, or what nothing chooses."""
+    if code.code is not None:
+        return code.code == choice.default
+    return len(choice.codes) == 1 or (not isinstance(code, StopBitsCode) and code.delivered)
+
+
+def _written(forms: FormatChoice, stops: StopBitsChoice | None) -> Iterator[tuple[bool, Character]]:
+    """Each character that the settings can choose, and whether it is the factory's."""
+    for form in forms.codes:
+        factory, data, parity = _factory(forms, form), form.data_bits or 8, PARITIES[form.parity]
+        if stops is None:
+            yield factory, Character(data, parity, form.stop_bits or 1)
+        else:
+            for each in stops.codes:
+                yield factory and _factory(stops, each), Character(data, parity, each.stop_bits)

@@ -25,7 +25,9 @@ class Setting:
     said: Citation
     register: int | None
     default: str
-    """As printed."""
+    """As printed; of several editions each with its own."""
+    editions: bool
+    """It differs by edition."""
     bounds: tuple[int, int] | None
     values: tuple[tuple[int, str], ...]
     needed: Needed | None
@@ -40,7 +42,7 @@ class Setting:
     @property
     def factory(self) -> int | None:
         """The number as delivered, where one is printed."""
-        said = re.match("[0-9]{1,9}", self.default)
+        said = None if self.editions else re.match("[0-9]{1,9}", self.default)
         return int(said[0]) if said else None
 
 
@@ -53,7 +55,8 @@ def settings(drive: Drive) -> tuple[Setting, ...]:
             name=one.name,
             said=cited(one),
             register=one.register,
-            default=one.default or "",
+            default=one.default or " or ".join(f"{each.default} ({each.edition})" for each in one.editions),
+            editions=bool(one.editions),
             bounds=(one.range.min, one.range.max) if one.range else None,
             values=tuple((each.value, each.name) for each in one.values),
             needed=Needed(one.needed.right, one.needed.by_terminals, one.needed.why) if one.needed else None,

@@ -5,6 +5,7 @@ from decimal import Decimal
 
 from driveblocks.maps.model import Drive, SilenceTime, kept
 from driveblocks.meaning.citation import Citation, cited
+from driveblocks.meaning.reference import reference
 from driveblocks.meaning.setting import setting
 
 
@@ -27,7 +28,11 @@ class Watchdog:
 
     said: Citation
     feeds: str | None
-    """A read, a written reference, a run command, or any good frame; None: the manual does not say."""
+    """Any good frame, read or write; None: the manual does not say, or names registers."""
+    fed_by: tuple[int, ...]
+    """The registers whose writes alone feed it."""
+    counts: str | None
+    """While the motor runs, always, or while the bus is in command; None: the manual does not say."""
     time: Time | None
     chosen_by: str | None
     """The setting that chooses what the drive does."""
@@ -36,6 +41,12 @@ class Watchdog:
     off: tuple[str, int] | None
     """The setting that switches it off, and its value."""
     note: str | None
+
+    def takes(self, written: range) -> bool:
+        """Whether a good request feeds it that writes these registers, or with none reads."""
+        if self.fed_by:
+            return any(each in written for each in self.fed_by)
+        return self.feeds != ("reads" if written else "writes")
 
 
 @kept
@@ -48,6 +59,8 @@ def watchdog(drive: Drive) -> Watchdog | None:
     return Watchdog(
         said=cited(one),
         feeds=one.feeds,
+        fed_by=one.fed_by,
+        counts=one.counts,
         time=_time(drive, one.time) if one.time else None,
         chosen_by=one.chosen_by,
         reactions=tuple((each.value, each.does) for each in one.reactions),
@@ -63,6 +76,21 @@ def _time(drive: Drive, time: SilenceTime) -> Time:
 
 
 def feeds(drive: Drive) -> str | None:
-    """What feeds the watchdog of a drive; None where it has none, or nobody says."""
+    """What of a drive block feeds it: polls, reference, or run; None where there is none, or nobody says."""
     own = watchdog(drive)
-    return own.feeds if own else None
+    if own is None or not (own.feeds or own.fed_by):
+        return None
+    if own.feeds == "writes" or reference(drive).register in own.fed_by:
+        return "reference"
+    return "run" if own.fed_by else "polls"
+
+
+def counts_at_rest(drive: Drive) -> bool:
+    """Whether it counts at standstill, too."""
+    own = watchdog(drive)
+    return own is not None and own.counts in ("always", "bus_in_command")
+
+
+def at_rest(drive: Drive) -> bool:
+    """Whether a drive block feeds it at standstill, too: by a reference of 0, which moves nothing."""
+    return counts_at_rest(drive) and feeds(drive) in (None, "reference")

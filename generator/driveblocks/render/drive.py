@@ -21,7 +21,7 @@ from driveblocks.meaning.reference import Reference, reference
 from driveblocks.meaning.roles import Roles, roles
 from driveblocks.meaning.serial import serial
 from driveblocks.meaning.status import Patterns, Sign, status
-from driveblocks.meaning.watchdog import feeds
+from driveblocks.meaning.watchdog import at_rest, feeds
 from driveblocks.meaning.words import Command, words
 from driveblocks.modbus.checksum import crc16
 from driveblocks.modbus.layout import COIL_ON
@@ -340,6 +340,7 @@ def _own(drive: Drive) -> dict[str, object]:
         "source": context.source_of(drive, words(drive).stop.source), "prefix": drive.prefix, "serial": serial(drive),
         "family_number": family_number(drive.prefix), "dialect": refusals(drive), "busy": busy(drive),
         "second_hand": second_hand(drive), "checked": checked(drive), "feeds": feeds(drive),
+        "fed_at_rest": at_rest(drive),
     }  # fmt: skip
 
 

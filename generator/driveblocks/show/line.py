@@ -5,7 +5,18 @@ from collections.abc import Iterable, Iterator
 from rich.console import RenderableType
 
 from driveblocks.maps.form import address_text
-from driveblocks.maps.model import BaudCode, Choice, Drive, FormatCode, Function, Limits, ModeCode, Serial, Setting
+from driveblocks.maps.model import (
+    BaudCode,
+    Choice,
+    Drive,
+    FormatCode,
+    Function,
+    Limits,
+    ModeCode,
+    Serial,
+    Setting,
+    StopBitsCode,
+)
 from driveblocks.meaning import conduct
 from driveblocks.meaning.serial import PARITIES
 from driveblocks.show.errata import corroborated
@@ -13,6 +24,7 @@ from driveblocks.show.faults import recorded
 from driveblocks.show.layout import both, card, choices, code_text, facts, heading, listed
 
 _TOLERATED = {"two_byte_count": ("byte count", "of a read may be a word")}
+_DIGITS = {1: "ones", 10: "tens", 100: "hundreds", 1000: "thousands"}
 _LIMITS = {
     "read_words": "words in one read",
     "write_words": "words in one write",
@@ -36,6 +48,7 @@ def line(drive: Drive) -> Iterator[RenderableType]:
         ("mode", _choice(known.mode, map(_mode, known.mode.codes), listed(known.mode.modes).upper())),
         ("bit rate", known.baud and _choice(known.baud, map(_baud, known.baud.codes))),
         ("format", known.format and _choice(known.format, map(_format, known.format.codes))),
+        ("stop bits", known.stop_bits and _choice(known.stop_bits, map(_stops, known.stop_bits.codes))),
         ("unit address", _unit(known)),
         ("silence", _silence(known)),
         ("replies later", conduct.reply_delay(drive)),
@@ -53,21 +66,31 @@ def _mode(code: ModeCode) -> str:
 
 
 def _baud(code: BaudCode) -> str:
-    return f"{code.code} = {code.baud} bit/s"
+    return _coded(code, f"{code.baud} bit/s")
 
 
 def _format(code: FormatCode) -> str:
     """As people write it, 8E1, where the manual gives all three parts; else each part, with what it does not give."""
     if code.data_bits is None or code.stop_bits is None:
-        return (
-            f"{code.code} = parity {code.parity}, {code.data_bits or '?'} data bits, {code.stop_bits or '?'} stop bits"
+        return _coded(
+            code, f"parity {code.parity}, {code.data_bits or '?'} data bits, {code.stop_bits or '?'} stop bits"
         )
-    return f"{code.code} = {code.data_bits}{PARITIES[code.parity]}{code.stop_bits}"
+    return _coded(code, f"{code.data_bits}{PARITIES[code.parity]}{code.stop_bits}")
+
+
+def _stops(code: StopBitsCode) -> str:
+    return f"{code.code} = {code.stop_bits}"
+
+
+def _coded(code: BaudCode | FormatCode, words: str) -> str:
+    """What a code chooses, or what the drive has without one."""
+    return f"{words}{' (as delivered)' * code.delivered}" if code.code is None else f"{code.code} = {words}"
 
 
 def _choice(choice: Choice, codes: Iterable[str], always: str = "") -> str:
     known = listed(codes)
-    setting = f"by {choice.setting}: " if choice.setting else ""
+    digit = f", its digit of {_DIGITS[choice.digit]}" if choice.digit else ""
+    setting = f"by {choice.setting}{digit}: " if choice.setting else ""
     default = "" if choice.default is None else f"; factory setting {choice.default}"
     parts = [always, f"{setting}{known}{default}" if known or setting or default else "", f"({choice.source})"]
     return "  ".join(part for part in parts if part)
@@ -143,12 +166,16 @@ def of_setting(drive: Drive, setting: Setting) -> RenderableType:
         ("register", address_text(setting.register) if setting.register is not None else None),
         ("range", f"{setting.range.min} to {setting.range.max}" if setting.range else None),
         ("step", setting.unit_step),
-        ("factory", setting.default),
+        ("factory", setting.default or _editions(setting)),
         ("values", choices(values)),
         ("note", setting.note),
         ("also says", corroborated(drive, setting.corroborated)),
         ("source", setting.source),
     )
+
+
+def _editions(setting: Setting) -> str | None:
+    return " or ".join(f"{each.default} ({each.edition}, {each.source})" for each in setting.editions) or None
 
 
 def _needed(setting: Setting) -> str | None:

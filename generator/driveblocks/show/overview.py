@@ -107,6 +107,7 @@ def _conduct(drive: Drive) -> Iterator[RenderableType]:
         ("reset", conduct.silenced(drive)),
         ("bus commands", _from(conduct.in_command(drive), run.commanded_by)),
         ("own maximum", _from(conduct.own_maximum(drive), run.own_maximum)),
+        ("lower limit", conduct.lower_limit(drive)),
         ("identity", _from(conduct.recognised(drive), drive.identity)),
         ("never sent", "\n".join(conduct.nevers(drive))),
     )

@@ -40,7 +40,7 @@ def answer(machine: Machine, request: bytes) -> bytes | None:
         return _refusal(machine, request, refused.reason) if called else None
     if not called:
         return None
-    machine.heard_at = machine.now
+    machine.hear(request)
     return request[:2] + data
 
 

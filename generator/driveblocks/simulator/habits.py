@@ -49,7 +49,7 @@ class Habits:
     busy_refuses_all: bool = False
     """While it stores it refuses all writes, commands too."""
     watchdog_ms: int | None = None
-    """How long it runs without a good request to its own address; None: it has no watchdog."""
+    """How long it takes for what feeds its watchdog, which counts as its map says; None: it has no watchdog."""
     watchdog: Literal["trip", "stop", "coast"] = "trip"
     watchdog_code: int = 1
     """The fault code of a trip by the watchdog."""

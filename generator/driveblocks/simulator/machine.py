@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 
+from driveblocks.maps.form import SPACES
 from driveblocks.maps.model import Drive
 from driveblocks.meaning.pattern import WORD
 from driveblocks.meaning.words import KINDS, MOTIONS, STOPS, CommandWord, Held
@@ -191,8 +192,20 @@ class Machine:
             self._let_go()
         self._settle()
         limit = habits.watchdog_ms
-        if limit is not None and self.motor.driven and self.now - self.heard_at > limit:
+        if limit is not None and self._watches() and self.now - self.heard_at > limit:
             self._lost()
+
+    def hear(self, request: bytes) -> None:
+        """A good request to its own address feeds its watchdog, if it is of the kind that does."""
+        first, function = int.from_bytes(request[2:4], "big"), request[1]
+        count = {5: 1, 6: 1, 16: request[5]}.get(function, 0)
+        start = first + SPACES["coil" if function == 5 else "holding"]
+        if self.table.watchdog is None or self.table.watchdog.takes(range(start, start + count)):
+            self.heard_at = self.now
+
+    def _watches(self) -> bool:
+        counts = self.table.watchdog and self.table.watchdog.counts
+        return self.motor.driven or counts == "always" or (counts == "bus_in_command" and not self.local)
 
     def _goal(self) -> int:
         """What the output frequency is to reach, in thousandths of a hertz."""
@@ -254,7 +267,7 @@ class Machine:
         """Reset a fault, by bus or keypad; it works only while its cause is gone and the motor is at standstill."""
         if not self.fault or self.cause or self.motor.shaft or not self.powered:
             return
-        self.fault = 0
+        self.fault, self.heard_at = 0, self.now
         if self.habits.resumes:
             self._hold()
 

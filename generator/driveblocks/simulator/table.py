@@ -17,6 +17,7 @@ from driveblocks.meaning.quantity import quantity
 from driveblocks.meaning.reference import reference
 from driveblocks.meaning.serial import serial
 from driveblocks.meaning.status import registers, status
+from driveblocks.meaning.watchdog import Watchdog, watchdog
 from driveblocks.meaning.words import CommandWord, words
 from driveblocks.modbus.layout import Dialect
 from driveblocks.simulator.copies import Copy, copies, zeros
@@ -128,6 +129,7 @@ class Table:
     shared: frozenset[int]
     """Registers that show something else than what was written there."""
     copies: dict[int, Copy]
+    watchdog: Watchdog | None
     own_address: int | None
     """The register that shows its unit address until somebody writes it."""
     zeros: str
@@ -178,6 +180,7 @@ def table(drive: Drive, habits: Habits, *, ascii_mode: bool = False) -> Table:
         shared=drive.shared,
         copies={each.register: each for each in again},
         own_address=own,
+        watchdog=watchdog(drive),
         zeros=zeros(drive, {*known, *([] if own is None else [own]), *(each.register for each in again)}),
     )
 

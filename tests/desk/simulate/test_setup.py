@@ -57,7 +57,7 @@ def test_every_line_says_that_it_is_simulated(tmp_path: Path) -> None:
     ).splitlines()
     assert all(line.startswith("SIMULATED  ") for line in lines)
     place = r"on 127\.0\.0\.1:\d+; Ctrl-C ends"
-    assert re.search(rf"JSCC at unit 1, CHF at unit 2; MODBUS RTU, 19200 bit/s 8N1, {place}", lines[0])
+    assert re.search(rf"JSCC at unit 1, CHF at unit 2; MODBUS RTU, 19200 bit/s 8E1, {place}", lines[0])
     assert lines[1] == "SIMULATED  JSCC at unit 1: maximum 50 Hz, ReferenceScale=10"
     assert lines[2] == "SIMULATED  CHF at unit 2: maximum 60 Hz (100 %), FrequencyScale=0.01,"
     text = "\n".join(lines)

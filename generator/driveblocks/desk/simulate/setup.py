@@ -37,7 +37,8 @@ class Words:
     port: str | None = None
     tcp: str | None = None
     pty: bool = False
-    baud: int = 19200
+    baud: int | None = None
+    """None: that of the drives as delivered."""
     form: str | None = None
     """As people write it; None: that of the drives as delivered."""
     ascii: bool = False
@@ -61,8 +62,9 @@ class Setup:
         self._play = Play(self.maps, scenario.read(words.scenario, self.maps) if words.scenario else ())
         drives = [one.made(ascii_mode=words.ascii) for one in wanted]
         self._settings = [line for one in wanted for line in one.told()]
-        self._its = character(words.form) if words.form else delivered(self.maps.values())[1]
-        self._bus = Bus(drives, words.baud, self._its.bits, ascii_mode=words.ascii)
+        rate, its = delivered(self.maps.values())
+        self._rate, self._its = words.baud or rate, character(words.form) if words.form else its
+        self._bus = Bus(drives, self._rate, self._its.bits, ascii_mode=words.ascii)
         self._tracer = Tracer(self.maps)
 
     def _wrong(self) -> list[str]:
@@ -76,7 +78,7 @@ class Setup:
             found.append(f"--tcp {words.tcp}: a simulator serves this computer only; write --tcp {HOST}:{TCP}")
         if words.port == "":
             found.append(NO_PORT)
-        if not 300 <= words.baud <= 1_000_000:
+        if words.baud is not None and not 300 <= words.baud <= 1_000_000:
             found.append(f"--baud {words.baud} is no rate; write 300 to 1000000")
         if words.form and not _FORM.fullmatch(words.form.upper()):
             found.append(f"--format {words.form} is no format; write 8N1, 8E1, 8O1, 8N2 or 7E1")
@@ -106,7 +108,7 @@ class Setup:
         place = words.port or ("--pty" if words.pty else words.tcp or f"{HOST}:{TCP}")
         with opening(place, "; name another place by --tcp, --pty or --port"):
             if words.port is not None:
-                return serial_port(words.port, words.baud, self._its.form, self._clock), words.port
+                return serial_port(words.port, self._rate, self._its.form, self._clock), words.port
             link = PtyLink() if words.pty else TcpLink(int(place.rpartition(":")[2]))
             return link, link.place
 
@@ -131,7 +133,7 @@ class Setup:
         drives = ", ".join(f"{drive.prefix} at unit {unit}" for unit, drive in self.maps.items())
         real = "REAL PORT " if words.port is not None else ""
         mode = "ASCII" if words.ascii else "RTU"
-        return f"{drives}; MODBUS {mode}, {words.baud} bit/s {self._its.form}, on {real}{place}; Ctrl-C ends"
+        return f"{drives}; MODBUS {mode}, {self._rate} bit/s {self._its.form}, on {real}{place}; Ctrl-C ends"
 
     def _sayer(self, screen: Screen) -> Callable[[str], None]:
         head = "" if isinstance(screen, Lines) else f"{LABEL}  "

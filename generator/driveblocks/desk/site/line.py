@@ -138,7 +138,7 @@ class Aged:
         drive, own = self.unit.drive, self.promised
         if not (self.unit.watchdog_ms and drive):
             return None
-        return own.worst if feeds(drive) in ("read", "any") else own.feed
+        return own.worst if feeds(drive) == "polls" else own.feed
 
     @property
     def margin(self) -> int | None:

@@ -22,6 +22,7 @@ SENT = frozenset({0x03, 0x04, 0x06, 0x08, 0x10})
 def check(drive: Drive, report: Report) -> None:
     _modes(drive.serial, report)
     _unit(drive.serial, report)
+    _stop_bits(drive.serial, report)
     if drive.serial.silence is not None:
         _silence(drive.serial.silence, report)
     if drive.serial.reply_delay is not None:
@@ -41,6 +42,17 @@ def _modes(serial: Serial, report: Report) -> None:
         if modes and code.mode not in modes:
             wrong = f"mode {code.mode} is not among `modes`"
             report.add(code.place("mode"), wrong, "add it there, or remove this code")
+
+
+def _stop_bits(serial: Serial, report: Report) -> None:
+    """Note stop bits that two settings choose, or that have no parity beside them."""
+    stops, forms = serial.stop_bits, serial.format
+    if stops is not None and forms is None:
+        report.miss(stops.at, "`stop_bits` without `format`", "add `format` with the codes of the parity")
+    for code in forms.codes if stops is not None and forms is not None else ():
+        if code.stop_bits is not None:
+            wrong = f"stop bits by {stops.setting if stops else ''}, and by a code of `format`, too"
+            report.add(code.place("stop_bits"), wrong, "leave them out here, or remove `stop_bits` of `serial`")
 
 
 def _unit(serial: Serial, report: Report) -> None:

@@ -4,7 +4,7 @@ from decimal import Decimal
 from typing import get_args
 
 from driveblocks.maps.form import address_text
-from driveblocks.maps.model import Bit, Drive, Measure, Measured, Reference, Register, Shows, Status, Value
+from driveblocks.maps.model import Bit, Drive, Measure, Measured, Operation, Reference, Register, Shows, Status, Value
 from driveblocks.maps.names import UNIT_NAMES
 from driveblocks.maps.problem import Report
 from driveblocks.maps.rules import term
@@ -25,6 +25,8 @@ def check(drive: Drive, report: Report) -> None:
     """Note every rule that the reference, the status or the measures break."""
     operation = drive.operation
     _reference(drive, operation.reference, report)
+    if operation.lower_limit is not None:
+        _parameter(drive, operation, "lower_limit", report)
     shown = unique(operation.status, "shows", "status", report)
     if "running" not in shown:
         wrong = "nothing says whether the drive runs"
@@ -157,8 +159,13 @@ def _maximum(drive: Drive, reference: Reference, report: Report) -> None:
     if reference.full_scale_hz is not None:
         wrong = "a parameter holds what 100 % is, or it is given for good"
         report.add(reference.place("full_scale_hz"), wrong, "remove it, or `maximum`")
-    of_form(drive, reference, reference.maximum, report, "maximum")
+    _parameter(drive, reference, "maximum", report)
+
+
+def _parameter(drive: Drive, entry: Reference | Operation, key: str, report: Report) -> None:
+    """Note a parameter that the map does not have."""
+    id_ = getattr(entry, key)
+    of_form(drive, entry, id_, report, key)
     ids = {row.id for _, row in drive.registers()} | {setting.id for setting in drive.settings}
-    if reference.maximum not in ids:
-        wrong = f"there is no parameter `{reference.maximum}`"
-        report.miss(reference.place("maximum"), wrong, "name the id of a register or setting")
+    if id_ not in ids:
+        report.miss(entry.place(key), f"there is no parameter `{id_}`", "name the id of a register or setting")

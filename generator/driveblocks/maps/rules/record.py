@@ -25,8 +25,24 @@ def check(drive: Drive, report: Report) -> None:
     _printed(drive, report)
     _errata(drive, report)
     unique(drive.absent, "what", "absence", report)
+    _owed(drive, report)
     _on_site(drive, report)
     _documents(drive, report)
+
+
+def _owed(drive: Drive, report: Report) -> None:
+    """Note what a person looks for on the page, and the map says neither of it nor that it is absent."""
+    run = drive.operation
+    said = {
+        "identity": drive.identity, "watchdog": drive.watchdog, "warnings": drive.warnings,
+        "commanded_by": run.commanded_by, "own_maximum": run.own_maximum, "lower_limit": run.lower_limit,
+        "trip_output": drive.faults.trip_output,
+    }  # fmt: skip
+    told = {ref for each in drive.absent for ref in each.about}
+    owed = [key for key, one in said.items() if one is None and key not in told]
+    if owed:
+        right = f"add the key, or entries of `absent` that are `about: [{', '.join(owed)}]`"
+        report.miss(drive.place("absent"), f"nothing is said of {', '.join(owed)}", right)
 
 
 def _on_site(drive: Drive, report: Report) -> None:

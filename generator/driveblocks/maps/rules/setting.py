@@ -12,6 +12,7 @@ from driveblocks.maps.model import (
     ModeCode,
     Serial,
     Setting,
+    StopBitsCode,
     Switch,
     UnitAddress,
     Value,
@@ -20,7 +21,7 @@ from driveblocks.maps.problem import Report
 from driveblocks.maps.rules.parameter import of_form
 from driveblocks.maps.rules.unique import unique
 
-Code = ModeCode | BaudCode | FormatCode
+Code = ModeCode | BaudCode | FormatCode | StopBitsCode
 _NOTATION = re.compile(r"\b([78])\W{0,3}([NEO])\W{0,3}([12])\b")
 _PARITIES = {"N": "none", "E": "even", "O": "odd"}
 _RATE = re.compile(r"[0-9]{3,}")
@@ -37,6 +38,7 @@ def check(drive: Drive, report: Report) -> None:
         _values(setting, report)
         _numbers(setting, report)
         _alternatives(setting, report)
+        _editions(setting, report)
         _visible(setting, settings, report)
         _register(drive, setting, registers.get(setting.id), report)
     for _, row in drive.registers():
@@ -101,6 +103,25 @@ def _alternatives(setting: Setting, report: Report) -> None:
         report.add(needed.place("one_of"), "`one_of` beside `value`", "write the numbers that serve in one of them")
     elif len(set(some)) < len(some) or len(some) == 1:
         report.add(needed.place("one_of"), f"`one_of` names {_list(some)}", "write two numbers or more, or `value`")
+
+
+def _editions(setting: Setting, report: Report) -> None:
+    """Note factory settings by edition that are none, or that nobody is asked to look up."""
+    some = setting.editions
+    if not some:
+        return
+    if setting.default is not None:
+        report.add(setting.place("default"), "`default` beside `editions`", "leave it out: each edition has its own")
+    if len({each.default for each in some}) == 1:
+        wrong = f"{setting.id} is {some[0].default} in every edition named"
+        report.add(setting.place("editions"), wrong, "write it as `default`, or add the edition that differs")
+    for each in some:
+        number = _decimal(each.default)
+        if number is not None and (wrong := _impossible(setting, number)):
+            report.miss(each.place("default"), f"default is {number}, but {wrong}", "correct one of them")
+    if setting.needed is None:
+        wrong = f"what {setting.id} is as delivered differs by edition, and nothing says what to set"
+        report.miss(setting.place("editions"), wrong, "add `needed: {why: ...}`: a person has to look it up")
 
 
 def _visible(setting: Setting, settings: Mapping[str, Setting], report: Report) -> None:
@@ -177,14 +198,32 @@ def _choices(serial: Serial) -> Iterator[tuple[str, Choice, Sequence[Code]]]:
         yield "baud", serial.baud, serial.baud.codes
     if serial.format:
         yield "format", serial.format, serial.format.codes
+    if serial.stop_bits:
+        yield "stop_bits", serial.stop_bits, serial.stop_bits.codes
 
 
 def _choice(name: str, choice: Choice, codes: Sequence[Code], report: Report) -> None:
-    unique(codes, "code", f"`{name}`: code", report, str)
-    numbers = [code.code for code in codes]
+    unique([code for code in codes if code.code is not None], "code", f"`{name}`: code", report, str)
+    numbers = [code.code for code in codes if code.code is not None]
+    _uncoded(name, choice, codes, report)
+    if choice.digit is not None and (choice.setting is None or not {*numbers} <= {*range(10)}):
+        wrong = f"one digit chooses `{name}`, but not of a setting, or by codes that are no digits"
+        report.miss(choice.place("digit"), wrong, "add `setting`, and write codes from 0 to 9")
     if choice.default is not None and numbers and choice.default not in numbers:
         wrong = f"default {choice.default} is not a code of `{name}`"
         report.miss(choice.place("default"), wrong, f"its codes are {_list(numbers)}")
+
+
+def _uncoded(name: str, choice: Choice, codes: Sequence[Code], report: Report) -> None:
+    """Note what has no code though a setting chooses it, and what is as delivered twice."""
+    bare = [code for code in codes if code.code is None]
+    if bare and (choice.setting is not None or len(bare) < len(codes)):
+        wrong = f"{choice.setting or 'a code'} chooses `{name}`, but this has no code"
+        report.miss(bare[0].at, wrong, "add `code`, or leave `setting` and all codes out")
+    delivered = [code for code in codes if getattr(code, "delivered", False)]
+    for code in delivered[len(bare) > 1 :]:
+        right = "mark one of several without codes; a code is named by `default`, and a single one needs no mark"
+        report.add(code.place("delivered"), f"`delivered` marks this in `{name}`, too", right)
 
 
 def _chosen(
@@ -194,18 +233,24 @@ def _chosen(
         wrong = f"there is no setting `{choice.setting}`"
         report.miss(choice.place("setting"), wrong, "name an entry of `settings`")
         return
-    values = {value.value: value for value in setting.values}
-    if values and codes and sorted(values) != sorted({code.code for code in codes}):
+    digit = getattr(choice, "digit", None)
+    values = {} if digit else {value.value: value for value in setting.values}
+    if values and codes and set(values) != {code.code for code in codes}:
         wrong = f"the codes of `{name}` are not the values of {setting.id}"
         report.miss(choice.place("codes"), wrong, f"its values are {_list(list(values))}")
     for code in codes:
-        if code.code in values:
+        if code.code is not None and code.code in values:
             _same(code, values[code.code], setting, report)
     _same_default(name, choice, setting, report)
 
 
 def _same_default(name: str, choice: Choice | UnitAddress, setting: Setting, report: Report) -> None:
+    if choice.default is not None and setting.editions:
+        wrong = f"default {choice.default} of `{name}`, but {setting.id} has another in each edition"
+        report.add(choice.place("default"), wrong, "leave it out: a person has to look it up")
     printed = _decimal(setting.default)
+    if printed is not None and (digit := getattr(choice, "digit", None)):
+        printed = printed // digit % 10
     if None not in (choice.default, printed) and choice.default != printed:
         wrong = f"default {choice.default} of `{name}`, but {setting.id} has {printed}"
         report.add(choice.place("default"), wrong, "the manual's table decides which of the two is wrong")

@@ -33,11 +33,25 @@ def _watchdog(drive: Drive, watchdog: Watchdog, settings: dict[str, Setting], re
     if watchdog.fault is not None and watchdog.fault not in {fault.code for fault in drive.faults.codes}:
         wrong = f"there is no fault {watchdog.fault:02X}H"
         report.miss(watchdog.place("fault"), wrong, "name a code of `faults`")
+    _fed(drive, watchdog, report)
     for one in watchdog.reactions:
         if one.does == "trips" and watchdog.fault is None:
             report.miss(one.place("does"), "the drive trips, and no fault is named", "add `fault`, a code of `faults`")
     _reactions(watchdog, settings, report)
     _needed(watchdog, settings, report)
+
+
+def _fed(drive: Drive, watchdog: Watchdog, report: Report) -> None:
+    """Note what feeds it twice, or by nothing that a drive block writes again."""
+    if watchdog.feeds and watchdog.fed_by:
+        wrong = f"`feeds: {watchdog.feeds}`, and `fed_by` names registers"
+        report.add(watchdog.place("fed_by"), wrong, "keep the one that the manual says")
+    for register in watchdog.fed_by:
+        known(drive, register, "w", watchdog.place("fed_by"), report)
+    runs = [write.register for each in drive.operation.commands if each.does == "run_forward" for write in each.writes]
+    if watchdog.fed_by and not {*runs, drive.operation.reference.register} & {*watchdog.fed_by}:
+        wrong = "no write of the drive block feeds it: neither the reference nor the run command is among `fed_by`"
+        report.miss(watchdog.place("fed_by"), wrong, "name theirs, if the manual does; else say it in the `note`")
 
 
 def _needed(watchdog: Watchdog, settings: dict[str, Setting], report: Report) -> None:

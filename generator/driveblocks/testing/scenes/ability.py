@@ -9,7 +9,7 @@ from driveblocks.meaning.measure import measures
 from driveblocks.meaning.polls import meaning_words, polls
 from driveblocks.meaning.reference import reference
 from driveblocks.meaning.status import status
-from driveblocks.meaning.watchdog import feeds
+from driveblocks.meaning.watchdog import at_rest, feeds
 from driveblocks.meaning.words import MOTIONS, Command, words
 from driveblocks.testing.scenes.drive import KINDS, ORDERS
 
@@ -66,8 +66,12 @@ class Ability:
     @cached_property
     def feeds(self) -> str:
         """What feeds its watchdog, which a drive block takes for the reference unless the map says more."""
-        named = feeds(self.drive) or "reference"
-        return "read" if named == "any" else named
+        return feeds(self.drive) or "reference"
+
+    @property
+    def fed_at_rest(self) -> bool:
+        """Whether it is fed at standstill, too."""
+        return at_rest(self.drive)
 
     @cached_property
     def settings_come_first(self) -> bool:

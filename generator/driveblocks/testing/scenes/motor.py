@@ -859,12 +859,18 @@ def _heartbeat(can: Ability) -> Iterator[Step]:
     sets: Shows = {"Pins.Settings.WatchdogMs": 1000, "Pins.Settings.RefreshMs": 65535}
     fed: dict[str, tuple[str, Shows]] = {
         "reference": ("the reference is refreshed for it", {"Seen.References >= 4": True}),
-        "read": ("the reads feed it", {"Seen.References < 4": True}),
+        "polls": ("the reads feed it", {"Seen.References < 4": True}),
         "run": ("run is sent again for it, and starts nothing", {"Seen.Starts": 1}),
     }
     name, shows = fed[can.feeds]
     yield Step(name, sets, ms=3000, shows=RUNNING | shows)
-    rarely: Shows = {"Fate.Dumb": True} if can.feeds == "read" else {"Pins.Settings.WatchdogMs": 30}
+    if can.fed_at_rest:
+        yield Step("it is stopped", {"RunForward": False}, "Motor.StopConfirmed", 4000, STANDS)
+        yield Step("a reference of 0 feeds it at standstill", {".Mark": "Seen.References"}, ms=3000, shows=STANDS | {
+            "Seen.References - Mark": (8, 12), "Seen.Starts": 1, "Error": False,
+        })  # fmt: skip
+        yield Step("it runs again", {"RunForward": True}, "Motor.Running", 2000, {"Seen.Starts": 2})
+    rarely: Shows = {"Fate.Dumb": True} if can.feeds == "polls" else {"Pins.Settings.WatchdogMs": 30}
     yield Step("too rarely for it", rarely, why("HEARTBEAT"), 1500, {"Running": True})
 
 
