@@ -15,7 +15,7 @@ from driveblocks.meaning.pattern import Pattern, of_condition
         (Condition(register=0x3000, equals=3), Pattern(0x3000, 0xFFFF, 3), "3000H = 3"),
         (
             Condition(register=0x3000, equals=0, differs=True),
-            Pattern(0x3000, 0xFFFF, 0, differs=True),
+            Pattern(0x3000, 0xFFFF, 0, is_="<>"),
             "3000H <> 0",
         ),
         (
@@ -34,4 +34,4 @@ def test_a_pattern_holds_for_words_with_its_bits() -> None:
     pattern = Pattern(1, 0x006F, 0x0023)
     assert pattern.holds(0xFF33)
     assert not pattern.holds(0x0027)
-    assert Pattern(1, 0xFFFF, 0, differs=True).holds(7)
+    assert Pattern(1, 0xFFFF, 0, "<>").holds(7)

@@ -160,8 +160,12 @@ def _written(drive: Drive) -> str:
 
 def _holds(drive: Drive, one: Pattern) -> str:
     """A pattern on the word that the drive block has read."""
-    name, is_ = f"Reads.{word_input(drive, one.register).name}", "<>" if one.differs else "="
-    return f"{name if one.mask == ALL else f'({name} AND {word(one.mask)})'} {is_} {word(one.value)}"
+    name = f"Reads.{word_input(drive, one.register).name}"
+    found = name if one.mask == ALL else f"({name} AND {word(one.mask)})"
+    if one.is_ in ("=", "<>"):
+        return f"{found} {one.is_} {word(one.value)}"
+    number = f"WORD_TO_UINT({found} XOR {word(SIGN)})" if one.signed else f"WORD_TO_UINT({found})"
+    return f"{number} {one.is_} {one.value ^ SIGN if one.signed else one.value}"
 
 
 def _comes(number: int, poll: Poll) -> str:
