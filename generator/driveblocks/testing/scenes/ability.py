@@ -5,9 +5,10 @@ from functools import cached_property
 
 from driveblocks.maps.model import Drive
 from driveblocks.meaning.measure import measures
-from driveblocks.meaning.polls import meaning_words, polls
+from driveblocks.meaning.polls import fault_words, meaning_words, polls
 from driveblocks.meaning.reference import reference
-from driveblocks.meaning.status import status
+from driveblocks.meaning.roles import roles
+from driveblocks.meaning.status import registers, status
 from driveblocks.meaning.watchdog import feeds
 from driveblocks.meaning.words import MOTIONS, Command, words
 from driveblocks.testing.scenes.drive import KINDS, ORDERS
@@ -44,6 +45,19 @@ class Ability:
     def kind(self, wanted: str) -> int:
         """Number of the stop that is sent where one is wanted: the drive's own, else its stop."""
         return KINDS[wanted if self.can(wanted) else "stop"]
+
+    @cached_property
+    def runs_by_speed(self) -> bool:
+        """Whether the frequency alone says that it runs: not at 0 Hz, and as long as the motor coasts after a trip."""
+        signs = registers(status(self.drive).shows("running"))
+        return {*signs} <= {one.register for one in measures(self.drive)}
+
+    @cached_property
+    def trips_at_once(self) -> bool:
+        """Whether the read that says that it runs no more says, too, that it has tripped."""
+        told = registers(status(self.drive).shows("fault")) or fault_words(self.drive)
+        running = [polls(self.drive)[number - 1].addresses for number in roles(self.drive).running]
+        return all(any(each in read for read in running) for each in told)
 
     @cached_property
     def absent(self) -> frozenset[str]:

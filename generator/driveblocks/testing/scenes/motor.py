@@ -168,7 +168,7 @@ def _not_able(does: str) -> Iterator[Step]:
 
 
 def _speeds(can: Ability) -> Iterator[Step]:
-    for hertz in (45.0, 10.0, 0.0, 30.0):
+    for hertz in (45.0, 10.0, *([] if can.runs_by_speed else [0.0]), 30.0):
         milli = f"ABS(Seen.Milli - {round(1000 * hertz)}) <= 200"
         yield Step(f"{hertz:g} Hz", {"SpeedReferenceHz": hertz}, milli, 2000, {"Running": True})
         if can.measures("output_frequency"):
@@ -405,7 +405,8 @@ def _code_known(can: Ability) -> str:
 
 def _trip(can: Ability) -> Iterator[Step]:
     trips: Shows = {"Fate.Trips": can.codes[1], "Fate.Cause": True}
-    yield Step("it trips", trips, _code_known(can), 1500, _tripped(can) | {"Seen.Starts": 1})
+    coasts: Shows = {"Seen.Starts": 1, "Running": can.runs_by_speed}
+    yield Step("it trips", trips, _code_known(can), 1500, _tripped(can) | coasts)
     yield Step(
         "a stop is sent, so that no run word is left", ms=500, shows={"Seen.Stops >= 2": True, "StopOverdue": False}
     )
@@ -413,7 +414,7 @@ def _trip(can: Ability) -> Iterator[Step]:
     yield Step("the first fault is kept", ms=300, shows={
         "Motor.Diagnosis.FirstFaultCode": can.code, "Motor.Diagnosis.FaultBack1": can.code,
         "Motor.Diagnosis.FirstFaultMs > 200": True, "Motor.Diagnosis.FirstFaultMs < 5000": True,
-        "Motor.Diagnosis.FirstFaultState": 4,
+        "Motor.Diagnosis.FirstFaultState": 4 if can.trips_at_once else (0, 4),
     } | _measured_at_fault(can))  # fmt: skip
     yield from _gone(can)
     yield Step("released", {"RunForward": False, "FaultReset": False}, "Motor.Ready", 1500)
@@ -431,7 +432,7 @@ def _trip(can: Ability) -> Iterator[Step]:
 def _measured_at_fault(can: Ability) -> Shows:
     """What was read last, before it tripped."""
     found: Shows = {}
-    if can.measures("output_frequency"):
+    if can.measures("output_frequency") and can.trips_at_once:
         found["ABS(Motor.Diagnosis.FirstFaultHz - 30.0) < 8.0"] = True
     if can.measures("dc_bus_voltage"):
         found["Motor.Diagnosis.FirstFaultV"] = 540.0
@@ -452,7 +453,8 @@ def _gone(can: Ability) -> Iterator[Step]:
         sets: Shows = {"Fate.Cause": False, "Fate.KeypadReset": True}
         gone = "Motor.StopConfirmed AND NOT Motor.Fault"
         yield Step("somebody resets it on its keypad", sets, gone, 4000, STANDS | {"FaultCode": 0})
-        yield Step("the run pin is still held", ms=500, shows={"Seen.Starts": 1, "Reason": "HELD"})
+        held: Shows = {"Reason": "HELD"} if can.trips_at_once else {}
+        yield Step("the run pin is still held", ms=500, shows={"Seen.Starts": 1} | held)
 
 
 def _trip_still(can: Ability) -> Iterator[Step]:

@@ -133,7 +133,8 @@ def _not_blank(drive: Drive) -> Iterator[Step]:
     } | _nothing_waits()))  # fmt: skip
     run = _command(drive, "run_forward")
     speed = reference(drive).register
-    yield Step("it runs as ever", {"RunForward": True, "Pins.Settings.RefreshMs": 65535}, "Motor.Running", 3000, {
+    runs: Shows = {"RunForward": True, "Pins.Settings.RefreshMs": 65535}
+    yield Step("it runs as ever", runs, "Motor.Running AND Seen.Driven", 3000, {
         "Seen.Starts": 1, "Seen.LastRegister = " + word(mark(run.register)): True,
     })  # fmt: skip
     yield Step("what the line knows then", ms=20, shows=_slot(known(drive) | {
