@@ -194,6 +194,8 @@ class Showing:
     shown: dict[str, str]
     status: dict[str, list[Test]]
     says: dict[str, list[str]]
+    forbids: list[str]
+    """Nothing starts while one of these holds."""
     knows_direction: str
     """When it shows which way it turns: a sign says nothing at 0."""
     verify: list[Test]
@@ -291,6 +293,7 @@ def _showing(drive: Drive, number: dict[int, int], told: Decoded) -> Showing:
         shown=STATUS,
         status={one.name: [_tested(drive, each) for each in one.patterns] for one in shown},
         says={one.name: [told.holds(each) for each in one.patterns] for one in sorted(shown, key=_running_first)},
+        forbids=[told.holds(each) for one in status(drive).forbids for each in one.patterns],
         knows_direction=_knows_direction(drive),
         verify=[_tested(drive, each) for each in verify],
         verified=[told.holds(each) for each in verify],

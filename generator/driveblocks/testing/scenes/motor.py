@@ -747,6 +747,8 @@ def modes(can: Ability) -> Iterator[Scene]:
         yield scene("a map that nobody has checked", *_unchecked())
     if status(can.drive).verify:
         yield scene("a setting that gives the reference another meaning", POWER, run(), *_wrong_setting())
+    if status(can.drive).forbids:
+        yield scene("what forbids a start", POWER, *_forbidden())
     yield scene("nothing set: the usual values", *_unset())
 
 
@@ -869,6 +871,15 @@ def _wrong_setting() -> Iterator[Step]:
     yield Step("set otherwise, and restarted", {"Fate.WrongSetting": True, "Pins.Restart": True}, ms=20)
     yield Step("the block sees it", {"Pins.Restart": False}, why("SETTING"), 3000, {"Ready": False})
     yield Step("an edge starts nothing", {"RunForward": True}, ms=500, shows={"Seen.Starts": 1, "Reason": "SETTING"})
+
+
+def _forbidden() -> Iterator[Step]:
+    yield Step("the drive shows it", {"Fate.Forbids": True}, why("FORBIDDEN"), 2000, {"Ready": False, "Error": False})
+    yield Step("an edge starts nothing", {"RunForward": True}, ms=500, shows=NOTHING_STARTED | {"Reason": "FORBIDDEN"})
+    over: Shows = {"Fate.Forbids": False, "RunForward": False}
+    yield Step("it is over", over, "Motor.Ready", 2000, {"Reason": "READY"})
+    yield run()
+    yield Step("what runs goes on", {"Fate.Forbids": True}, ms=1500, shows=RUNNING | {"Seen.Starts": 1})
 
 
 def _unset() -> Iterator[Step]:
