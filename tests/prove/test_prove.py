@@ -212,7 +212,7 @@ MAPS = [
 @pytest.mark.parametrize("name", MAPS)
 @pytest.mark.thorough
 def test_a_map_of_ones_own_is_proved(name: str, tmp_path: Path) -> None:
-    """Paths, pulses, several registers, active-low bits, signs, thresholds, what forbids a start; and what `new` writes."""
+    """Paths, pulses, several registers, active-low bits, signs, thresholds, forbidden starts; and what `new` writes."""
     path = tmp_path / f"{name}.yaml"
     path.write_text((texts() | values() | signs()).get(name) or skeleton(), "utf-8")
     (source,) = collection.read(catalog.chosen([str(path)]))

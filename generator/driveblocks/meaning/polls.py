@@ -105,7 +105,7 @@ def speed_words(drive: Drive) -> frozenset[int]:
 
 
 def meaning_words(drive: Drive) -> frozenset[int]:
-    """What gives the reference its meaning, settings and the drive's own maximum frequency; and what forbids a start."""
+    """What gives the reference its meaning, settings and the drive's own maximum; and what forbids a start."""
     own, asked = own_maximum(drive), status(drive)
     forbids = registers(each for one in asked.forbids for each in one.patterns)
     return _whole(drive, (*registers(asked.verify), *forbids, *([own.register] if own else ())))
