@@ -8,15 +8,18 @@ import pytest
 from tests.shapes import signs
 
 from driveblocks.desk.run.look import _state
+from driveblocks.desk.scenario import _code
 from driveblocks.maps import check
 from driveblocks.maps.collection import Source
 from driveblocks.maps.load import loads
+from driveblocks.maps.lookup import find
 from driveblocks.maps.model import Drive
 from driveblocks.maps.problem import MapError, Report
 from driveblocks.meaning.roles import roles
 from driveblocks.meaning.status import status
 from driveblocks.output.units import units
 from driveblocks.prove.facts import facts
+from driveblocks.reference import text
 from driveblocks.render.drive import drive_block
 from driveblocks.render.text import languages
 from driveblocks.simulator.drive import SimulatedDrive
@@ -37,10 +40,10 @@ def drive(name: str) -> Drive:
     return loads(signs()[name], f"{name}.yaml")
 
 
-def wrong(text: str) -> list[str]:
+def wrong(said: str) -> list[str]:
     """What the rules say of a map, without places."""
     report = Report("")
-    check.check(loads(text, "map.yaml"), report)
+    check.check(loads(said, "map.yaml"), report)
     return [problem.wrong for problem in report.problems]
 
 
@@ -78,9 +81,9 @@ def test_a_motor_that_runs_coasts_and_stands_is_shown_so(name: str) -> None:
 
 
 def test_two_bits_are_one_run_and_names_are_not_judged() -> None:
-    text = signs()["two_bits"]
-    assert wrong(text.replace("Forward run", "Standby").replace("Reverse run", "No fault")) == []
-    forgot = text.replace("{register: 2000H, bit: 2, equals: 0}, ", "")
+    whole = signs()["two_bits"]
+    assert wrong(whole.replace("Forward run", "Standby").replace("Reverse run", "No fault")) == []
+    forgot = whole.replace("{register: 2000H, bit: 2, equals: 0}, ", "")
     with pytest.raises(MapError, match="`running` is shown by 2000H bit 2 = 1, which may be while standstill"):
         loads(forgot, "map.yaml")
 
@@ -123,6 +126,17 @@ def test_what_forbids_a_start_is_read_before_it() -> None:
     assert block.showing.forbids == ["ExtendedControlBits.NoMonitoringOfTheLine"]
     assert roles(drive("forbidden")).verify
     assert facts(drive("forbidden"))["forbidden"] == "((Reads.ExtendedControlWord AND WORD#16#4000) = WORD#16#4000)"
+
+
+def test_one_display_stands_for_several_codes() -> None:
+    one = "{code: 01H, id: OC, name: Overcurrent}"
+    made = loads(signs()["sign"].replace(one, f"{one}, {{code: 02H, id: OC, name: Overcurrent in a ramp}}"), "map.yaml")
+    assert [each.shown for each in find(made, "OC")] == [
+        "01H  OC  fault  Overcurrent",
+        "02H  OC  fault  Overcurrent in a ramp",
+    ]
+    assert text.fault(made, 2) == text.Texts("OC Overcurrent in a ramp", "OC Overcurrent in a ramp")
+    assert _code(made, "OC") == 1
 
 
 @cache

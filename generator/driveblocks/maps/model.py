@@ -1049,7 +1049,7 @@ class Fault(Returned):
     """One fault code, or one warning code."""
 
     code: Number = fact("the number that the drive reports", "1EH")
-    id: Str | None = option("the drive's short display", "OPR")
+    id: Str | None = option("the drive's short display; several codes may have the same", "OPR")
     printed_code: Str | None = option("the code as printed, where that is wrong (needs an erratum)", "OEF")
     document: Word | None = option(_SAYS_SO, "fieldbus_guide")
     note: English | None = option("what else a person must know", "...")
