@@ -91,7 +91,7 @@ def proofs(drive: Drive, addresses: list[int]) -> Iterator[dict[int, int]]:
     """Words by register: the proof, then each single bit of it changed, then pairs of random words."""
     good = dict.fromkeys(addresses, 0)
     for one in drive.operation.standstill.all:
-        good[one.register] |= one.equals << (one.bit.first if one.bit else 0)
+        good[one.register] |= (one.equals or 0) << (one.bit.first if one.bit else 0)
     yield good
     for address in addresses:
         for bit in range(16):

@@ -12,7 +12,7 @@ from driveblocks.maps import check, load
 from driveblocks.maps.form import Span
 from driveblocks.maps.model import Bit, Command, Drive, Register
 from driveblocks.maps.problem import Report
-from driveblocks.maps.rules import term, word
+from driveblocks.maps.rules import word
 
 pytestmark = pytest.mark.every_family
 
@@ -151,30 +151,3 @@ def _everything(drive: Drive, command: Command) -> Iterator[tuple[str, Command]]
                 yield bit.name or "", replace(plain, set=(bit.bit,), clear=rest)
         if not row.values and not row.bits:
             yield row.name or "", replace(plain, value=1)
-
-
-@pytest.mark.parametrize(
-    ("name", "zh", "wanted"),
-    [
-        ("Preset frequency", "预置频率", set()),
-        ("No function", "无功能", set()),
-        ("Turning counter-clockwise", "", {term.RUN}),
-        ("Freewheel", "自由停机 (紧急停机)", {term.COAST, term.QUICK, term.STOP}),
-        ("Order 3", "急停", {term.QUICK, term.STOP}),
-        ("Stop", "运转停止", {term.RUN, term.STOP}),
-    ],
-)
-def test_a_name_has_the_meanings_of_its_terms(name: str, zh: str, wanted: set[str]) -> None:
-    assert term.of(name, zh) == wanted
-
-
-@pytest.mark.parametrize(
-    "name",
-    ["No coast stop", "Reverse prohibited", "Do not stop", "Stop disabled", "Run, active low", "Stop (low active)"],
-)
-def test_a_name_can_say_the_contrary(name: str) -> None:
-    assert term.negated(name)
-
-
-def test_a_number_is_no_contrary() -> None:
-    assert not term.negated("Stop No. 3", "停机3")

@@ -3,8 +3,9 @@
 import pytest
 
 from driveblocks.maps.form import Span
-from driveblocks.maps.model import Condition
+from driveblocks.maps.model import Condition, Register
 from driveblocks.meaning.pattern import Pattern, of_condition
+from driveblocks.reference.standstill import holds as oracle
 
 
 @pytest.mark.parametrize(
@@ -15,7 +16,7 @@ from driveblocks.meaning.pattern import Pattern, of_condition
         (Condition(register=0x3000, equals=3), Pattern(0x3000, 0xFFFF, 3), "3000H = 3"),
         (
             Condition(register=0x3000, equals=0, differs=True),
-            Pattern(0x3000, 0xFFFF, 0, differs=True),
+            Pattern(0x3000, 0xFFFF, 0, is_="<>"),
             "3000H <> 0",
         ),
         (
@@ -30,8 +31,52 @@ def test_a_condition_as_a_pattern(condition: Condition, pattern: Pattern, text: 
     assert str(pattern) == text
 
 
+SIGNED = Register(address=Span(0x20, 0x20), signed=True)
+BELOW, NEGATIVE = Condition(register=0x20, below=5), Condition(register=0x20, below=0)
+
+
+@pytest.mark.parametrize(
+    ("condition", "row", "text", "holds", "not_"),
+    [
+        (BELOW, None, "0020H < 5", (0, 4), (5, 0xFFFF)),
+        (BELOW, SIGNED, "0020H < 5", (0, 4, 0xFFFF, 0x8000), (5, 0x7FFF)),
+        (NEGATIVE, SIGNED, "0020H < 0", (0x8000, 0xFFFF), (0, 0x7FFF)),
+        (Condition(register=0x20, above=-5), SIGNED, "0020H > -5", (0xFFFC, 0, 0x7FFF), (0xFFFB, 0x8000)),
+        (Condition(register=0x20, above=5), None, "0020H > 5", (6, 0xFFFF), (0, 5)),
+        (Condition(register=0x20, bit=Span(4, 7), above=2), None, "0020H bits 4-7 > 2", (0x30, 0xFFFF), (0x2F, 0xFF0F)),
+        (Condition(register=0x20, bit=Span(4, 7), below=2), SIGNED, "0020H bits 4-7 < 2", (0x1F, 0xFF0F), (0x20, 0xF0)),
+    ],
+)
+def test_a_number_below_or_above_another(
+    condition: Condition, row: Register | None, text: str, holds: tuple[int, ...], not_: tuple[int, ...]
+) -> None:
+    pattern = of_condition(condition, row)
+    assert str(pattern) == text
+    assert [pattern.holds(word) for word in (*holds, *not_)] == [True] * len(holds) + [False] * len(not_)
+    assert pattern.holds(pattern.word)
+    signed = row is not None and row.signed
+    assert [oracle(condition, word, signed=signed) for word in (*holds, *not_)] == [True] * len(holds) + [False] * len(
+        not_
+    )
+
+
+@pytest.mark.parametrize(
+    ("one", "other", "apart"),
+    [
+        (Pattern(1, 0xFFFF, 20, "<"), Pattern(1, 0xFFFF, 19, ">"), True),
+        (Pattern(1, 0xFFFF, 20, "<"), Pattern(1, 0xFFFF, 18, ">"), False),
+        (Pattern(1, 0xFFFF, 0, "<>"), Pattern(1, 0xFFFF, 0), True),
+        (Pattern(1, 0xFFFF, 3), Pattern(1, 0xFFFF, 0, "<>"), False),
+        (Pattern(1, 0xFFFF, 0, "<", signed=True), Pattern(1, 0x8000, 0), True),
+        (Pattern(1, 0xFFFF, 20, "<"), Pattern(2, 0xFFFF, 19, ">"), False),
+    ],
+)
+def test_patterns_that_never_hold_at_once(one: Pattern, other: Pattern, apart: bool) -> None:
+    assert one.excludes(other) == other.excludes(one) == apart
+
+
 def test_a_pattern_holds_for_words_with_its_bits() -> None:
     pattern = Pattern(1, 0x006F, 0x0023)
     assert pattern.holds(0xFF33)
     assert not pattern.holds(0x0027)
-    assert Pattern(1, 0xFFFF, 0, differs=True).holds(7)
+    assert Pattern(1, 0xFFFF, 0, "<>").holds(7)

@@ -12,7 +12,7 @@ from lxml import etree
 from tests import shipped
 from tests.commands.test_page_commands import commands
 from tests.prove import agreement
-from tests.shapes import texts, values
+from tests.shapes import signs, texts, values
 
 from driveblocks.cli import app
 from driveblocks.maps import catalog, collection
@@ -194,6 +194,12 @@ def test_a_mistake_in_a_block_breaks_its_rule(block: str, fault: dict[str, str])
     assert any(each.answer.question.words.startswith(fault["breaks"]) for each in proved.proofs if not each.good)
 
 
+@pytest.mark.thorough
+def test_a_start_that_is_forbidden_breaks_its_rule() -> None:
+    proved = planted("SettingsGood AND NOT Forbidden", "SettingsGood", "VFD_Start", "VFD_Control", "a start needs")
+    assert not all(each.good for each in proved.proofs)
+
+
 def test_the_line_calls_who_is_next_in_the_order_that_its_proof_takes_for_granted() -> None:
     text = (PAGE.parents[1] / "blocks" / "iec61131" / "line" / "MB_Line8.st").read_text("utf-8")
     called = [each.split()[0].strip(",);") for each in text.split("Next(Event := ")[1:]]
@@ -203,16 +209,16 @@ def test_the_line_calls_who_is_next_in_the_order_that_its_proof_takes_for_grante
 
 MAPS = [
     pytest.param(name, marks=() if name in ("pulse", "signed") else pytest.mark.long)
-    for name in (*texts(), "signed", "new")
+    for name in (*texts(), "signed", "new", "no_bit", "sign", "forbidden")
 ]
 
 
 @pytest.mark.parametrize("name", MAPS)
 @pytest.mark.thorough
 def test_a_map_of_ones_own_is_proved(name: str, tmp_path: Path) -> None:
-    """Paths, pulses, several registers, active-low bits, a direction by sign; and what `driveblocks new` writes."""
+    """Paths, pulses, several registers, active-low bits, signs, thresholds, forbidden starts; and what `new` writes."""
     path = tmp_path / f"{name}.yaml"
-    path.write_text((texts() | values()).get(name) or skeleton(), "utf-8")
+    path.write_text((texts() | values() | signs()).get(name) or skeleton(), "utf-8")
     (source,) = collection.read(catalog.chosen([str(path)]))
     made = dict(prover.texts([source]))[name]
     found = prover.proved(made, {name: rules.family(facts(source.drive))})

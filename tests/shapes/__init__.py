@@ -34,8 +34,16 @@ def shapes() -> dict[str, Drive]:
     return {name: loads(text, f"{name}.yaml") for name, text in texts().items()}
 
 
+@cache
+def signs() -> dict[str, str]:
+    """Maps that show their status in other ways than by bits, by name."""
+    return {name: case.text for name, case in bad.edits(FILE.with_name("status.diff"), _base)}
+
+
 def _base(name: str) -> list[str]:
-    """The skeleton, or the drive that coils command."""
+    """The skeleton, the drive that coils command, or a map of those of `texts`."""
+    if name in texts():
+        return texts()[name].split("\n")
     if name != "coils":
         return _skeleton(name)
     return (bad.FOLDER / "coils.yaml").read_text(encoding="utf-8").split("\n")[1:]

@@ -203,7 +203,7 @@ def _code(drive: Drive, word: str) -> int:
         number = int(word[:-1], 16) if word.endswith("H") else int(word)
         listed = [each.code for each in drive.faults.codes]
         return number if number <= 0xFFFF and (number in listed or not listed) else 0
-    names = {name.lower(): each.code for each in drive.faults.codes for name in (each.name, each.id) if name}
+    names = {name.lower(): each.code for each in reversed(drive.faults.codes) for name in (each.name, each.id) if name}
     return names.get(word.lower(), 0)
 
 

@@ -523,17 +523,26 @@ class Function(Named):
 
 @dataclass(frozen=True, kw_only=True)
 class Condition(Entry):
-    """A register, or a bit of it, that must have a value."""
+    """A register, or a bit of it, that must have a value; or a number that must be below or above another.
+
+    It has one of `equals`, `below` and `above`; numbers are signed where the register's row says so.
+    """
 
     register: Address = fact("the register", "000FH")
     bit: Bits | None = option("the bit or bits; left out for the whole word", "0")
     mask: Number | None = option(
         "bits that count, where they are not side by side; the value is in their place", "006FH"
     )
-    equals: Number = fact("the value", "0")
+    equals: Number | None = option("the value", "0")
     differs: bool | None = option(
         "in a status: it holds while the value is any other, such as a fault code that is not 0", "true"
     )
+    below: Number | None = option(
+        "in a status or for standstill: it holds while the number is less; `below: 0` of a signed one: while it is "
+        "negative",
+        "0",
+    )
+    above: Number | None = option("in a status or for standstill: it holds while the number is greater", "5")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -946,6 +955,16 @@ class Status(Entry):
 
 
 @dataclass(frozen=True, kw_only=True)
+class Forbidding(Entry):
+    """What forbids a start: no motion begins while one of these holds; one that is under way goes on."""
+
+    any: tuple[Condition, ...] = fact("the conditions", "[{register: 2138H, bit: E, equals: 1}]")
+    why: English = fact("what a person should know who wonders why nothing starts", "the drive watches no silent line")
+    source: English = fact("where the manual says so", "table of the control words")
+    document: Word | None = option(_SAYS_SO, "fieldbus_guide")
+
+
+@dataclass(frozen=True, kw_only=True)
 class Measured(Entry):
     """A register whose value a pin of the drive block shows."""
 
@@ -1040,6 +1059,11 @@ class Operation(Entry):
         "[{name: switched_on, register: 2100H, mask: 006FH, equals: 0023H, ...}]",
         default=(),
     )
+    forbids: tuple[Forbidding, ...] = option(
+        "what forbids a start, and why",
+        "[{any: [{register: 2138H, bit: E, equals: 1}], why: ..., source: ...}]",
+        default=(),
+    )
     commanded_by: InCommand | None = option(
         "what says that the bus is in command", "{all: [{register: 0C81H, bit: 9, equals: 1}], source: ...}"
     )
@@ -1084,7 +1108,7 @@ class Fault(Returned):
     """One fault code, or one warning code."""
 
     code: Number = fact("the number that the drive reports", "1EH")
-    id: Str | None = option("the drive's short display", "OPR")
+    id: Str | None = option("the drive's short display; several codes may have the same", "OPR")
     printed_code: Str | None = option("the code as printed, where that is wrong (needs an erratum)", "OEF")
     document: Word | None = option(_SAYS_SO, "fieldbus_guide")
     note: English | None = option("what else a person must know", "...")

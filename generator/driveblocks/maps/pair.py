@@ -59,10 +59,10 @@ def _all(drive: Drive, one: Any) -> Any:
 
 def _parted(drive: Drive, conditions: tuple[Condition, ...]) -> Iterator[Condition]:
     for one in conditions:
-        row = drive.register_at(one.register)
-        plain = one.bit is None and one.mask is None and not one.differs and 0 <= one.equals < 1 << 32
-        if row is None or row.size == 1 or not is_first(row, one.register) or not plain:
+        row, equals = drive.register_at(one.register), one.equals
+        plain = one.bit is None and one.mask is None and not one.differs and 0 <= (equals or 0) < 1 << 32
+        if row is None or row.size == 1 or not is_first(row, one.register) or not plain or equals is None:
             yield one
         else:
-            for register, value in zip(whole(drive, one.register), words(row, one.equals), strict=True):
+            for register, value in zip(whole(drive, one.register), words(row, equals), strict=True):
                 yield replace(one, register=register, equals=value)

@@ -114,6 +114,8 @@ def _shown(drive: Drive) -> Iterator[_Said]:
     run = drive.operation
     for shown in run.status:
         yield "status", shown.shows, [shown, *_rows(drive, (each.register for each in shown.any))]
+    for forbids in run.forbids:
+        yield "status", "no start", [forbids, *_rows(drive, (each.register for each in forbids.any))]
     for state in run.states:
         yield "status", f"state {state.name}", [state, *_rows(drive, [state.register])]
     proofs = {"standstill": run.standstill, "bus in command": run.commanded_by, "identity": drive.identity}

@@ -1,55 +1,87 @@
-"""Bits of a register that must have, or get, a value."""
+"""Bits of a register that must have, or get, a value; or the number in them, which must be below or above another."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from typing import Literal
 
 from driveblocks.maps.form import Span, address_text, bits_text, masked_text
-from driveblocks.maps.model import Condition, State
+from driveblocks.maps.model import Condition, Register, State
 
 WORD = 0xFFFF
+Is = Literal["=", "<>", "<", ">"]
 
 
 @dataclass(frozen=True)
 class Pattern:
-    """A register, the bits that count, and their value in its place, or with `differs` any other."""
+    """A register, the bits that count, and what they are compared with, in its place."""
 
     register: int
     mask: int
     value: int
-    differs: bool = False
+    is_: Is = "="
+    signed: bool = False
+    """Of `<` and `>`: the whole word is a number with a sign."""
 
     def __str__(self) -> str:
         """For a person: 000FH bit 0 = 0."""
-        is_, first = "<>" if self.differs else "=", (self.mask & -self.mask).bit_length() - 1
-        bits = Span(first, self.mask.bit_length() - 1)
+        bits = Span(self.unit.bit_length() - 1, self.mask.bit_length() - 1)
         if self.mask != bits_of([bits]):
-            return masked_text(self.register, self.mask, self.value, is_)
+            return masked_text(self.register, self.mask, self.value, self.is_)
         which = "" if self.mask == WORD else f" bit{'s' * (len(bits) > 1)} {bits_text(bits)}"
-        return f"{address_text(self.register)}{which} {is_} {self.value >> first}"
+        return f"{address_text(self.register)}{which} {self.is_} {self.number(self.value) >> bits.first}"
+
+    @property
+    def unit(self) -> int:
+        """The lowest of its bits."""
+        return self.mask & -self.mask
+
+    @property
+    def word(self) -> int:
+        """A value of its bits with which it holds: 0 where that does, else the nearest."""
+        if self.is_ == "=" or self.holds(0):
+            return self.value if self.is_ == "=" else 0
+        near = {"<>": self.value ^ self.unit, "<": self.value - self.unit, ">": self.value + self.unit}
+        return near[self.is_] & self.mask
+
+    def number(self, word: int) -> int:
+        """The number in its bits, in their place."""
+        found = word & self.mask
+        return found - (WORD + 1) if self.signed and found >> 15 else found
 
     def holds(self, word: int) -> bool:
-        """Whether a word of the register has the value."""
-        return (word & self.mask == self.value) != self.differs
-
-    def other(self) -> "Pattern":
-        """A value with which it holds if it does not now: of those that differ, the one with the lowest bit turned."""
-        return Pattern(self.register, self.mask, self.value ^ (self.mask & -self.mask))
+        """Whether a word of the register is so."""
+        if self.is_ in ("=", "<>"):
+            return (word & self.mask == self.value) == (self.is_ == "=")
+        found, than = self.number(word), self.number(self.value)
+        return found < than if self.is_ == "<" else found > than
 
     def excludes(self, other: "Pattern") -> bool:
-        """Whether no word has both values."""
-        both = self.mask & other.mask
-        if self.differs:
-            return self.register == other.register and both == self.mask and other.value & both == self.value
-        return self.register == other.register and (self.value ^ other.value) & both != 0
+        """Whether both never hold at once."""
+        if self.register != other.register:
+            return False
+        if self.is_ == other.is_ == "=":
+            return (self.value ^ other.value) & self.mask & other.mask != 0
+        return not any(self.holds(word) and other.holds(word) for word in range(WORD + 1))
 
 
-def of_condition(condition: Condition | State) -> Pattern:
-    """What a condition or a named state asks of its register."""
-    bit = condition.bit if isinstance(condition, Condition) else None
-    differs = isinstance(condition, Condition) and bool(condition.differs)
+def of_condition(condition: Condition | State, row: Register | None = None) -> Pattern:
+    """What a condition or a named state asks of its register, whose row says whether its number has a sign."""
+    if isinstance(condition, State):
+        return Pattern(condition.register, WORD if condition.mask is None else condition.mask, condition.equals)
+    is_, number = asked(condition)
+    bit, signed = condition.bit, row is not None and row.signed and condition.bit is None
     if bit is not None:
-        return Pattern(condition.register, bits_of([bit]), condition.equals << bit.first, differs)
-    return Pattern(condition.register, WORD if condition.mask is None else condition.mask, condition.equals, differs)
+        return Pattern(condition.register, bits_of([bit]), number << bit.first, is_)
+    mask = WORD if condition.mask is None else condition.mask
+    return Pattern(condition.register, mask, number & WORD, is_, signed and is_ in ("<", ">"))
+
+
+def asked(condition: Condition | State) -> tuple[Is, int]:
+    """How a condition compares, and with what number."""
+    if isinstance(condition, Condition) and condition.equals is None:
+        return ("<", condition.below) if condition.below is not None else (">", condition.above or 0)
+    differs = isinstance(condition, Condition) and condition.differs
+    return "<>" if differs else "=", condition.equals or 0
 
 
 def bits_of(spans: Iterable[Span]) -> int:

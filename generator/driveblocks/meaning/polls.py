@@ -105,9 +105,10 @@ def speed_words(drive: Drive) -> frozenset[int]:
 
 
 def meaning_words(drive: Drive) -> frozenset[int]:
-    """What gives the reference its meaning: settings that the map asks for, and the drive's own maximum frequency."""
-    own = own_maximum(drive)
-    return _whole(drive, (*registers(status(drive).verify), *([own.register] if own else ())))
+    """What gives the reference its meaning, settings and the drive's own maximum; and what forbids a start."""
+    own, asked = own_maximum(drive), status(drive)
+    forbids = registers(each for one in asked.forbids for each in one.patterns)
+    return _whole(drive, (*registers(asked.verify), *forbids, *([own.register] if own else ())))
 
 
 def _frequency(drive: Drive) -> Iterator[int]:

@@ -26,7 +26,7 @@ class Roles:
     fault: Numbers
     """... whether there is a fault, and which."""
     verify: Numbers
-    """... what gives the reference its meaning: settings, and the drive's own maximum."""
+    """... what gives the reference its meaning: settings, and the drive's own maximum; and what forbids a start."""
     setting: Numbers
     """... of it the settings."""
     measure: Numbers

@@ -44,6 +44,8 @@ class Status:
     states: tuple[State, ...]
     verify: Patterns
     """Settings with which the reference means what the map says, all of them."""
+    forbids: tuple[Sign, ...]
+    """Nothing starts while one of the patterns of one of these holds."""
     by_bus: Sign
     """The bus commands the drive while all hold; none: nothing shows it."""
     identity: Sign
@@ -64,18 +66,19 @@ def status(drive: Drive) -> Status:
     """What a map says of the words that are read."""
     run, still = drive.operation, drive.operation.standstill
     bus, identity = run.commanded_by, drive.identity
+
+    def made(conditions: Iterable[Condition]) -> Patterns:
+        return tuple(of_condition(one, drive.register_at(one.register)) for one in conditions)
+
     return Status(
-        shown=tuple(Sign(one.shows, cited(one), _patterns(one.any)) for one in run.status),
-        standstill=Sign("standstill", cited(still), _patterns(still.all), still.why),
+        shown=tuple(Sign(one.shows, cited(one), made(one.any)) for one in run.status),
+        standstill=Sign("standstill", cited(still), made(still.all), still.why),
         states=tuple(State(one.name, cited(one), of_condition(one)) for one in run.states),
-        verify=_patterns(run.reference.verify),
-        by_bus=Sign("by bus", cited(bus), _patterns(bus.all)) if bus else NOTHING,
-        identity=Sign("identity", cited(identity), _patterns(identity.all), identity.why) if identity else NOTHING,
+        verify=made(run.reference.verify),
+        forbids=tuple(Sign("no start", cited(one), made(one.any), one.why) for one in run.forbids),
+        by_bus=Sign("by bus", cited(bus), made(bus.all)) if bus else NOTHING,
+        identity=Sign("identity", cited(identity), made(identity.all), identity.why) if identity else NOTHING,
     )
-
-
-def _patterns(conditions: Iterable[Condition]) -> Patterns:
-    return tuple(map(of_condition, conditions))
 
 
 def registers(patterns: Iterable[Pattern]) -> tuple[int, ...]:

@@ -160,8 +160,12 @@ def _written(drive: Drive) -> str:
 
 def _holds(drive: Drive, one: Pattern) -> str:
     """A pattern on the word that the drive block has read."""
-    name, is_ = f"Reads.{word_input(drive, one.register).name}", "<>" if one.differs else "="
-    return f"{name if one.mask == ALL else f'({name} AND {word(one.mask)})'} {is_} {word(one.value)}"
+    name = f"Reads.{word_input(drive, one.register).name}"
+    found = name if one.mask == ALL else f"({name} AND {word(one.mask)})"
+    if one.is_ in ("=", "<>"):
+        return f"{found} {one.is_} {word(one.value)}"
+    number = f"WORD_TO_UINT({found} XOR {word(SIGN)})" if one.signed else f"WORD_TO_UINT({found})"
+    return f"{number} {one.is_} {one.value ^ SIGN if one.signed else one.value}"
 
 
 def _comes(number: int, poll: Poll) -> str:
@@ -256,14 +260,16 @@ def _shown(drive: Drive) -> dict[str, str]:
         f"Slot.BusyReason = {busy(drive)}",
     ]
     ready = [_holds(drive, each) for each in shows.shows("ready")]
-    verify = [(Decoded(drive).holds(each), _holds(drive, each)) for each in shows.verify]
+    forbids = [each for one in shows.forbids for each in one.patterns]
+    decoded = [*shows.verify, *forbids]
     return {
         "ready_shown": f"(CommOk AND ({_any(ready)}))" if ready else "TRUE",
-        "verified": _every(word for _, word in verify),
+        "verified": _every(_holds(drive, each) for each in shows.verify),
+        "forbidden": _any(_holds(drive, each) for each in forbids),
         "settings_since": _each("Reads.Sure{n}", roles(drive).verify),
-        "settings_seen": _each("Reads.Since{n}", roles(drive).setting) if verify else "FALSE",
+        "settings_seen": _each("Reads.Since{n}", roles(drive).setting) if shows.verify else "FALSE",
         "settled_read": "(NOT Known.Settled.Proved OR Reads.SettingsRead)" if roles(drive).verify else "TRUE",
-        "settings_said": _every(f"({decoded}) = ({word})" for decoded, word in verify),
+        "settings_said": _every(f"({Decoded(drive).holds(each)}) = ({_holds(drive, each)})" for each in decoded),
         "said": _every(said),
         "pins": _every(pins),
         "told": _every(told),

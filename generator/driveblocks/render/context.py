@@ -399,7 +399,7 @@ def word_input(drive: Drive, address: int) -> Word:
 
 def tested(pin: str, one: Pattern) -> Test:
     """A pattern as a test of the word at a pin."""
-    return Test(pin, one.mask if one.mask != WORD else 0, one.value, one.differs)
+    return Test(pin, one.mask if one.mask != WORD else 0, one.value, one.is_, one.signed)
 
 
 @dataclass(frozen=True)

@@ -35,7 +35,7 @@ class Decoded:
         decoder = self._decoders.get(word.address_text)
         parts = decoder.parts if decoder else ()
         flags = {_exact(part.test): part.name for part in parts if part.kind == "flag"}
-        for asked, said in () if test.differs else ((test, "{}.{}"), (_set(test), "NOT {}.{}")):
+        for asked, said in () if test.is_ != "=" else ((test, "{}.{}"), (_set(test), "NOT {}.{}")):
             if decoder and asked and _exact(asked) in flags:
                 return said.format(self._instance(decoder, word), flags[_exact(asked)])
         pin = f"Reads.{word.name}"

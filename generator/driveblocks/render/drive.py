@@ -20,7 +20,7 @@ from driveblocks.meaning.polls import Poll, fast_words, meaning_words, other_wor
 from driveblocks.meaning.reference import Reference, reference
 from driveblocks.meaning.roles import Roles, roles
 from driveblocks.meaning.serial import serial
-from driveblocks.meaning.status import Patterns, Sign, status
+from driveblocks.meaning.status import Patterns, Sign, registers, status
 from driveblocks.meaning.watchdog import at_rest, feeds
 from driveblocks.meaning.words import Command, words
 from driveblocks.modbus.checksum import crc16
@@ -194,6 +194,10 @@ class Showing:
     shown: dict[str, str]
     status: dict[str, list[Test]]
     says: dict[str, list[str]]
+    forbids: list[str]
+    """Nothing starts while one of these holds."""
+    knows_direction: str
+    """When it shows which way it turns: a sign says nothing at 0."""
     verify: list[Test]
     verified: list[str]
     measures: dict[str, Measured]
@@ -289,6 +293,8 @@ def _showing(drive: Drive, number: dict[int, int], told: Decoded) -> Showing:
         shown=STATUS,
         status={one.name: [_tested(drive, each) for each in one.patterns] for one in shown},
         says={one.name: [told.holds(each) for each in one.patterns] for one in sorted(shown, key=_running_first)},
+        forbids=[told.holds(each) for one in status(drive).forbids for each in one.patterns],
+        knows_direction=_knows_direction(drive),
         verify=[_tested(drive, each) for each in verify],
         verified=[told.holds(each) for each in verify],
         measures={one.name: _measure(drive, one, told, number) for one in measures(drive)},
@@ -297,6 +303,13 @@ def _showing(drive: Drive, number: dict[int, int], told: Decoded) -> Showing:
         own_maximum=_own_maximum(drive),
         decoders=told.used,
     )
+
+
+def _knows_direction(drive: Drive) -> str:
+    signs = status(drive).shows("reverse")
+    numbers = registers(each for each in signs if each.is_ in ("<", ">"))
+    moves = [f"(Reads.{word_input(drive, each).name} <> WORD#16#0000)" for each in numbers]
+    return " AND ".join(moves) or str(bool(signs)).upper()
 
 
 def _running_first(one: Sign) -> bool:

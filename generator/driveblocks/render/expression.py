@@ -6,6 +6,7 @@ from fractions import Fraction
 from typing import NamedTuple, TypeVar
 
 from driveblocks.maps.form import Span
+from driveblocks.meaning.pattern import Is
 from structured_text.language.writing import word
 
 T = TypeVar("T")
@@ -18,18 +19,23 @@ _REAL_BITS = 24
 
 
 class Test(NamedTuple):
-    """What the bits of a mask in a word must be, in their place, or must not be; without a mask the whole word."""
+    """What the bits of a mask in a word are compared with, in their place; without a mask the whole word."""
 
     pin: str
     mask: int
     value: int
-    differs: bool = False
+    is_: Is = "="
+    signed: bool = False
 
 
 def holds(test: Test) -> str:
     """An expression that is TRUE when a word passes its test."""
     counted = f"({test.pin} AND {word(test.mask)})" if test.mask else test.pin
-    return f"{counted} {'<>' if test.differs else '='} {word(test.value)}"
+    if test.is_ in ("=", "<>"):
+        return f"{counted} {test.is_} {word(test.value)}"
+    number = test.value - 0x10000 if test.signed and test.value >> 15 else test.value
+    kind = "INT" if test.signed else "UINT"
+    return f"WORD_TO_{kind}({counted if not test.mask else counted[1:-1]}) {test.is_} {number}"
 
 
 def within(span: Span, pin: str) -> str:

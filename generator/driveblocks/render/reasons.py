@@ -155,6 +155,8 @@ REASONS = (
         "nothing; it is shown while `FaultReset` is TRUE"),
     Reason(60, "FAULT_BACK", "the fault is there again after the reset", "复位后故障再次出现",
         "remove the cause, then a rising `FaultReset`"),
+    Reason(61, "FORBIDDEN", "the drive shows what forbids a start: see its page", "变频器状态禁止启动，见说明页",
+        "the page of the drive block says what and why; end it, then start again"),
 )  # fmt: skip
 _BY_NAME = {reason.name: reason for reason in REASONS}
 

@@ -23,6 +23,7 @@ from driveblocks.maps.revision import revision
 from driveblocks.maps.trust import counted, heard, second_hand, words
 from driveblocks.meaning import conduct
 from driveblocks.meaning.pattern import of_condition
+from driveblocks.meaning.status import status
 from driveblocks.show.faults import reported
 from driveblocks.show.layout import both, facts, heading, listed, table
 from driveblocks.show.line import line, settings
@@ -86,11 +87,11 @@ def operation(drive: Drive) -> Iterator[RenderableType]:
         for row in _command(drive, command):
             made.add_row(*row)
     yield made
-    still = drive.operation.standstill
+    still = status(drive).standstill
     yield heading("Reference, standstill, storage")
     yield facts(
         ("reference", _reference(drive.operation.reference)),
-        ("standstill", f"{' and '.join(map(str, map(of_condition, still.all)))}: {still.why}  ({still.source})"),
+        ("standstill", f"{' and '.join(map(str, still.patterns))}: {still.why}  ({still.said.source})"),
         ("storage", _storage(drive)),
     )
     yield from _shown(drive)
@@ -122,8 +123,9 @@ def _shown(drive: Drive) -> Iterator[RenderableType]:
     operation = drive.operation
     yield heading("What the pins show")
     made = table("pin", "from", wide=("from",))
-    for status in operation.status:
-        made.add_row(_plain(status.shows), f"{' or '.join(map(str, map(of_condition, status.any)))}  ({status.source})")
+    for sign in (*status(drive).shown, *status(drive).forbids):
+        why = f": {sign.why}" if sign.why else ""
+        made.add_row(_plain(sign.name), f"{' or '.join(map(str, sign.patterns))}{why}  ({sign.said.source})")
     for measured in operation.measures:
         made.add_row(_plain(measured.shows), f"{address_text(measured.register)}  ({measured.source})")
     made.add_row("fault code", _fault_code(drive))

@@ -10,6 +10,7 @@ from driveblocks.maps import view
 from driveblocks.maps.form import address_text, bits_text, span_text, wire, wire_text
 from driveblocks.maps.model import Area, Command, Drive, Register, Section, Step, Value
 from driveblocks.meaning.pattern import of_condition
+from driveblocks.meaning.status import status
 from driveblocks.meaning.words import DOES, UNKNOWN, words
 from driveblocks.show.errata import corroborated
 from driveblocks.show.faults import recorded
@@ -137,10 +138,10 @@ def _written(drive: Drive, one: Command | Step) -> str:
 def _shows(drive: Drive, address: int) -> Iterator[str]:
     """What a register shows on pins of the drive block."""
     operation = drive.operation
-    for status in operation.status:
-        some = [str(of_condition(one)) for one in status.any if one.register == address]
+    for sign in (*status(drive).shown, *status(drive).forbids):
+        some = [str(one) for one in sign.patterns if one.register == address]
         if some:
-            yield f"{status.shows.replace('_', ' ')}: {' or '.join(some)}"
+            yield f"{sign.name.replace('_', ' ')}: {' or '.join(some)}"
     yield from (one.shows.replace("_", " ") for one in operation.measures if one.register == address)
     if address == drive.faults.present:
         yield "fault code"

@@ -130,7 +130,7 @@ def _facts(drive: Drive, measured: frozenset[int], situation: Situation, state: 
     stands = tuple(each for each in shows.standstill.patterns if each.register not in measured)
 
     def fact(name: str, *, wanted: bool) -> Fact:
-        return Fact(wanted, tuple((each,) for each in shows.shows(name)), name)
+        return Fact(wanted, tuple((each,) for each in shows.shows(name) if each.register not in measured), name)
 
     named = {each.name: Fact(each.name == state, ((each.pattern,),)) for each in awaited(drive)}
     now = [named.pop(state)] if state in named else []
@@ -154,13 +154,14 @@ def _facts(drive: Drive, measured: frozenset[int], situation: Situation, state: 
 def _options(fact: Fact) -> list[tuple[Pattern, ...]]:
     """Ways to help a fact: nothing; an alternative as it is; or a bit that one wants to be 0, turned."""
     if fact.wanted:
-        return [(), *(tuple(each.other() if each.differs else each for each in all_) for all_ in fact.any)]
-    turned = [(replace(each, differs=False),) for all_ in fact.any for each in all_ if each.differs and each.value]
+        return [(), *(tuple(replace(each, value=each.word, is_="=") for each in all_) for all_ in fact.any)]
+    others = (each for all_ in fact.any for each in all_ if each.is_ != "=")
+    turned = [(replace(each, value=each.value if each.holds(0) else 0, is_="="),) for each in others]
     turned += [
         (Pattern(each.register, 1 << bit, 1 << bit),)
         for all_ in fact.any
         for each in all_
-        if not each.differs
+        if each.is_ == "="
         for bit in _zeros(each)
     ]
     return [(), *turned]

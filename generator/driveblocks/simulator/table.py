@@ -213,7 +213,7 @@ def _gauges(drive: Drive, habits: Habits) -> tuple[Gauge, ...]:
     told = registers((*(each for one in known.shown for each in one.patterns), *states))
     for each in known.standstill.patterns:
         # no status, and 0 at standstill: a frequency, or nothing that a motor could show
-        if each.register not in told and each.mask == WORD and each.value == 0:
+        if each.register not in told and each.mask == WORD and each.holds(0):
             for register in whole(drive, each.register):
                 shows.setdefault(register, "output_frequency")
     return tuple(_gauge(drive, habits, register, what) for register, what in sorted(shows.items()))

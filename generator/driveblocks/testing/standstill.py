@@ -65,8 +65,11 @@ def _standstill(drive: Drive, stem: str) -> Script:
 def _proofs(drive: Drive, addresses: list[int]) -> Iterator[tuple[str, dict[int, int]]]:
     still = dict.fromkeys(addresses, 0)
     for pattern in status(drive).standstill.patterns:
-        still[pattern.register] |= pattern.value
+        still[pattern.register] |= pattern.word
     yield "all conditions hold", still
+    for pattern in (each for each in status(drive).standstill.patterns if each.is_ != "="):
+        for word in (pattern.value - pattern.unit, pattern.value, pattern.value + pattern.unit):
+            yield f"{pattern}, at its limit", {**still, pattern.register: word & 0xFFFF}
     for address in addresses:
         for bit in range(16):
             yield f"bit {bit:X} of {address_text(address)} changed", {**still, address: still[address] ^ 1 << bit}

@@ -65,7 +65,7 @@ def results(languages: Iterable[Language]) -> Iterator[Script]:
         yield program
 
 
-REASONS = (*range(7), *range(10, 20), *range(20, 30), *range(30, 36), *range(40, 61))
+REASONS = (*range(7), *range(10, 20), *range(20, 30), *range(30, 36), *range(40, 62))
 """Every number that `Reason` of a drive block can have."""
 
 

@@ -35,6 +35,7 @@ def _seen(controller: Controller, path: str) -> Seen:
 _PINS = (
     "CommOk", "Running", "Reverse", "AtSpeed", "Fault", "FaultCode", "StopConfirmed", "StopOverdue",
     "OutputFrequencyHz", "Diagnosis.OutputFrequencyValid", "SpeedReferenceHz", "Reason",
+    "Control.KnowsDirection",
 )  # fmt: skip
 
 
@@ -48,7 +49,7 @@ def _state(pin: dict[str, Value]) -> str:
     if pin["StopOverdue"]:
         return "STOP OVERDUE"
     if pin["Running"]:
-        way = "reverse" if pin["Reverse"] else "forward"
+        way = "reverse" if pin["Reverse"] else "forward" if pin["Control.KnowsDirection"] else "running"
         return f"{way}, at speed" if pin["AtSpeed"] else f"{way}"
     if pin["StopConfirmed"]:
         return "standstill"

@@ -16,14 +16,13 @@ _ADDED = (0x40, 0x80)
 
 def check(drive: Drive, report: Report) -> None:
     codes = unique(drive.faults.codes, "code", "fault code", report, "{:02X}H".format)
-    ids = unique(drive.faults.codes, "id", "fault", report)
     for code, fault in codes.items():
         if not 1 <= code <= 0xFFFF:
             report.add(fault.place("code"), f"fault code {code}", "0 means no fault; codes are 1 to FFFFH")
     _fault_registers(drive, codes, report)
     _present(drive, report)
     if drive.faults.bits is not None:
-        _fault_bits(drive, drive.faults.bits, ids, report)
+        _fault_bits(drive, drive.faults.bits, unique(drive.faults.codes, "id", "fault", report), report)
     if drive.warnings is not None:
         _warnings(drive, drive.warnings, report)
     _errors(drive, report)
@@ -32,7 +31,6 @@ def check(drive: Drive, report: Report) -> None:
 def _warnings(drive: Drive, warnings: Warnings, report: Report) -> None:
     """Note what hides the code of a warning, or makes it another one."""
     codes = unique(warnings.codes, "code", "warning code", report, "{:02X}H".format)
-    unique(warnings.codes, "id", "warning", report)
     count, faults = len(warnings.span), drive.faults
     if not count:
         report.add(

@@ -7,11 +7,7 @@ from driveblocks.maps.form import address_text
 from driveblocks.maps.model import Condition, Drive, Identity, InCommand, OwnMaximum
 from driveblocks.maps.problem import Report
 from driveblocks.maps.rules.access import known
-from driveblocks.maps.rules.condition import called, exclude
-
-_BUS = ("bus", "communication", "network", "remote", "serial", "rs-485", "rs485", "通讯", "通信", "总线", "远程")
-_ELSEWHERE = ("keypad", "panel", "terminal", "local", "operator", "键盘", "面板", "端子", "本地", "操作器")
-"""Who may be in command of a drive, as manuals call it."""
+from driveblocks.meaning.pattern import asked, of_condition
 
 
 def check(drive: Drive, report: Report) -> None:
@@ -32,13 +28,13 @@ def _conditions(one: Identity | InCommand, report: Report) -> None:
     if not one.all:
         report.miss(one.place("all"), "without a condition it is true of every drive", "write the conditions")
     for earlier, later in combinations(one.all, 2):
-        if exclude(earlier, later):
+        if of_condition(earlier).excludes(of_condition(later)):
             wrong = f"{address_text(later.register)} cannot have two values at once"
             report.add(later.place("equals"), wrong, "all conditions have to hold together; keep one of the two")
 
 
 def _identity(drive: Drive, identity: Identity, report: Report) -> None:
-    if identity.all and not any(condition.equals for condition in identity.all):
+    if identity.all and not any(asked(condition)[1] for condition in identity.all):
         wrong = "nothing but zeros proves no family: a register that is not in use may read 0, too"
         report.add(identity.place("all"), wrong, "ask for a code that the manual gives")
     moving = {*_written(drive), *_shown(drive)}
@@ -62,20 +58,14 @@ def _shown(drive: Drive) -> Iterator[int]:
 
 
 def _in_command(drive: Drive, condition: Condition, report: Report) -> None:
-    """Note a condition on what was set or written, which is not who is in command, or on another master."""
+    """Note a condition on what was set or written, which is not who is in command."""
     where, place = address_text(condition.register), condition.place("register")
     settings = {setting.register: setting.id for setting in drive.settings}
-    row = drive.register_at(condition.register)
     if condition.register in settings:
         wrong = f"{where} holds the setting {settings[condition.register]}, which does not say who is in command now"
         report.add(place, wrong, "name a status register")
     elif condition.register in _written(drive):
         report.add(place, f"{where} holds what the PLC itself has written", "name a status register")
-    named = called(row, condition) if row is not None else None
-    words = f"{named.name} {named.text_zh or ''}".lower() if named is not None else ""
-    if named is not None and any(word in words for word in _ELSEWHERE) and not any(word in words for word in _BUS):
-        wrong = f"the bus is in command where {where} says `{named.name}`"
-        report.add(condition.place("equals"), wrong, "ask for the bit or value of the bus")
 
 
 def _own_maximum(drive: Drive, maximum: OwnMaximum, report: Report) -> None:

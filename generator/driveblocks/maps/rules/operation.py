@@ -1,18 +1,16 @@
 """Rules on how the speed reference is given, and on what the pins of the drive block show."""
 
 from decimal import Decimal
-from typing import get_args
 
 from driveblocks.maps.form import address_text
-from driveblocks.maps.model import Bit, Drive, Measure, Measured, Operation, Reference, Register, Shows, Status, Value
+from driveblocks.maps.model import Drive, Forbidding, Measured, Operation, Reference, Register, Status
 from driveblocks.maps.names import UNIT_NAMES
 from driveblocks.maps.problem import Report
-from driveblocks.maps.rules import term
 from driveblocks.maps.rules.access import cyclic, known
-from driveblocks.maps.rules.condition import called
 from driveblocks.maps.rules.parameter import of_form
 from driveblocks.maps.rules.unique import unique
 from driveblocks.meaning.measure import PINS
+from driveblocks.meaning.pattern import asked
 
 _UNITS = {name: unit for unit, name in UNIT_NAMES.items()}
 """The last part of a pin's name -> the unit that it shows its value in."""
@@ -31,31 +29,23 @@ def check(drive: Drive, report: Report) -> None:
     if "running" not in shown:
         wrong = "nothing says whether the drive runs"
         report.miss(operation.place("status"), wrong, "add `shows: running` with the bits or values that say so")
-    for status in operation.status:
-        _status(drive, status, report)
+    signs: tuple[Status | Forbidding, ...] = (*operation.status, *operation.forbids)
+    for sign in signs:
+        _any(drive, sign, report)
     unique(operation.measures, "shows", "measure", report)
     for measured in operation.measures:
         _measured(drive, measured, report)
 
 
-def _status(drive: Drive, status: Status, report: Report) -> None:
-    if not status.any:
-        report.miss(status.place("any"), f"`{status.shows}` has no condition", "write those that show it")
-    for condition in status.any:
+def _any(drive: Drive, sign: Status | Forbidding, report: Report) -> None:
+    if not sign.any:
+        what = f"`{sign.shows}`" if isinstance(sign, Status) else "what forbids a start"
+        report.miss(sign.place("any"), f"{what} has no condition", "write those that show it")
+    for condition in sign.any:
         row = drive.register_at(condition.register)
         if row is not None and row.masks and condition.mask is None:
             wrong = f"the values of {address_text(condition.register)} are bits that may combine"
-            report.add(condition.place("equals"), wrong, f"add `mask: {condition.equals}`")
-        named = called(row, condition) if row is not None else None
-        if named is not None and _other(status.shows, named, get_args(Shows)):
-            wrong = f"`{status.shows}` is shown by what {address_text(condition.register)} calls `{named.name}`"
-            report.add(condition.at, wrong, "correct the pin, the bit or value, or the register's table")
-
-
-def _other(pin: str, named: Bit | Value | Register, pins: tuple[str, ...]) -> bool:
-    """Whether a name is one for what another pin shows, and not for what this one does."""
-    shown = term.shown(named.name or "", named.text_zh or "", pins)
-    return bool(shown) and pin not in shown and not term.negated(named.name or "", named.text_zh or "")
+            report.add(condition.place("equals"), wrong, f"add `mask: {asked(condition)[1]}`")
 
 
 def _measured(drive: Drive, measured: Measured, report: Report) -> None:
@@ -72,10 +62,8 @@ def _measured(drive: Drive, measured: Measured, report: Report) -> None:
     elif row is not None and not (pin.setting or (row.unit and row.scale)):
         wrong = f"`{measured.shows}` is shown in {unit}, but {address_text(measured.register)} has no unit with a scale"
         report.miss(place, wrong, "add both to the register where the manual gives them; else leave the measure out")
-    elif row is not None and (
-        _other(measured.shows, row, get_args(Measure)) or term.wanted(row.name or "", row.zh or "")
-    ):
-        wrong = f"`{measured.shows}` is shown by {address_text(measured.register)}, which is called `{row.name}`"
+    elif row is not None and row is drive.register_at(drive.operation.reference.register, "w"):
+        wrong = f"`{measured.shows}` is shown by {address_text(measured.register)}, which the PLC itself has written"
         report.add(place, wrong, "name the register that measures it")
 
 
@@ -84,9 +72,6 @@ def _reference(drive: Drive, reference: Reference, report: Report) -> None:
     if row is None:
         return
     _reverses(drive, reference, row, report)
-    if "PID" in f"{row.name} {row.text_zh}":
-        wrong = f"{address_text(reference.register)} is called `{row.name}`, which is no speed reference"
-        report.add(reference.place("register"), wrong, "name the register that takes the frequency")
     _full_scale(reference, row, report)
     unit = {"frequency": "Hz", "speed": "r/min"}.get(reference.means, "%")
     if row.unit not in (None, unit):

@@ -4,9 +4,9 @@ from driveblocks.maps.factor import doubt
 from driveblocks.maps.form import Span, address_text, bits_text, is_bit, span_text
 from driveblocks.maps.model import Bit, Drive, Manual, Numbering, OtherScale, Range, Register, Scale, Value
 from driveblocks.maps.problem import Report, line
-from driveblocks.maps.rules.condition import exclude
 from driveblocks.maps.rules.name import worded
 from driveblocks.maps.rules.unique import overlapping, unique
+from driveblocks.meaning.pattern import of_condition
 
 
 def check(drive: Drive, report: Report) -> None:
@@ -194,6 +194,6 @@ def _otherwise(row: Register, scale: Scale, report: Report) -> None:
         if one.when is None:
             report.miss(one.at, "a factor that holds while no other does is not the last", "add `when`, or move it")
     for number, later in enumerate(scale.conditions):
-        if not all(exclude(later, earlier) for earlier in scale.conditions[:number]):
+        if not all(of_condition(later).excludes(of_condition(earlier)) for earlier in scale.conditions[:number]):
             wrong = "this may hold together with the condition of another factor"
             report.add(later.at, wrong, "ask the same bits for another value")

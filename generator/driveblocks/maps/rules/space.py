@@ -7,6 +7,7 @@ from driveblocks.maps.model import Condition, Drive, State, Use
 from driveblocks.maps.pair import is_first
 from driveblocks.maps.plan import reads_by, used, writes_by
 from driveblocks.maps.problem import Place, Report
+from driveblocks.maps.rules.condition import every
 from driveblocks.meaning.polls import fast_words, slow_words
 from driveblocks.meaning.words import STOPS
 
@@ -39,12 +40,8 @@ def _wide(drive: Drive, address: int, use: Use = "r") -> bool:
 
 
 def _conditions(drive: Drive) -> Iterator[Condition | State]:
-    operation = drive.operation
-    yield from (*operation.standstill.all, *operation.reference.verify)
-    yield from operation.states
-    yield from (each for one in (drive.identity, operation.commanded_by) if one for each in one.all)
-    yield from (condition for status in operation.status for condition in status.any)
-    yield from (each for _, row in drive.registers() if row.scale for each in row.scale.conditions)
+    yield from every(drive)
+    yield from drive.operation.states
 
 
 def _condition(drive: Drive, one: Condition | State, report: Report) -> None:
@@ -56,7 +53,11 @@ def _condition(drive: Drive, one: Condition | State, report: Report) -> None:
     if not parts:
         half = "" if is_first(row, one.register) else "half of "
         wrong = f"{address_text(one.register)} is {half}a value of 32 bits"
-        report.add(one.place("register"), wrong, "only a condition that must hold asks for it, by its first register")
+        report.add(
+            one.place("register"),
+            wrong,
+            "only a condition that must hold asks for it, by its first register and one value",
+        )
 
 
 def _numbers(drive: Drive) -> Iterator[tuple[str, int, Place]]:

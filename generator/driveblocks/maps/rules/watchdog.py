@@ -1,15 +1,9 @@
 """Rules on what a drive does by itself: when its line is silent, and to the motor when it trips."""
 
-from typing import get_args
-
-from driveblocks.maps.model import Drive, Reaction, Reacts, Setting, SilenceTime, Watchdog
+from driveblocks.maps.model import Drive, Setting, SilenceTime, Watchdog
 from driveblocks.maps.problem import Place, Report
-from driveblocks.maps.rules import term
 from driveblocks.maps.rules.access import known
 from driveblocks.maps.rules.unique import unique
-
-_STOPS: tuple[Reacts, ...] = ("stop", "quick_stop", "coast_stop")
-_DECELERATES = ("decel", "ramp", "减速")
 
 
 def check(drive: Drive, report: Report) -> None:
@@ -110,32 +104,7 @@ def _chosen(setting: Setting, watchdog: Watchdog, report: Report) -> None:
             report.miss(reaction.at, f"a reaction without a value of {setting.id}", "add `value`")
         else:
             _possible(setting, reaction.value, reaction.place("value"), report)
-            _same(setting, reaction, report)
     missing = {one.value for one in setting.values} - {one.value for one in watchdog.reactions}
     if missing:
         wrong = f"what {setting.id} = {min(missing)} does is missing"
         report.miss(watchdog.place("reactions"), wrong, "write what the drive does for each value of the setting")
-
-
-def _same(setting: Setting, reaction: Reaction, report: Report) -> None:
-    """Note a reaction that says something else than the name of the setting's value."""
-    named = next((one for one in setting.values if one.value == reaction.value), None)
-    if named is None or term.negated(named.name, named.text_zh or ""):
-        return
-    if reaction.does not in _meant(named.name, named.text_zh or ""):
-        wrong = f"`does: {reaction.does}`, but {setting.id} calls {reaction.value} `{named.name}`"
-        report.add(reaction.place("does"), wrong, "the manual's table decides which of the two is wrong")
-
-
-def _meant(name: str, zh: str) -> tuple[Reacts, ...]:
-    """What a name may mean; everything, where it holds no term for a stop or a run."""
-    means = term.of(name, zh)
-    if term.COAST in means:
-        return ("coast_stop",)
-    if term.QUICK in means:
-        return ("quick_stop",)
-    if any(word in f"{name.lower()} {zh}" for word in _DECELERATES):
-        return ("stop", "quick_stop")
-    if term.STOP in means:
-        return _STOPS
-    return ("runs_on", "other_speed") if term.RUN in means else get_args(Reacts)

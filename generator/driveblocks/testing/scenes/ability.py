@@ -6,9 +6,10 @@ from functools import cached_property
 from driveblocks.maps.model import Drive
 from driveblocks.maps.rivals import first_reads
 from driveblocks.meaning.measure import measures
-from driveblocks.meaning.polls import meaning_words, polls
+from driveblocks.meaning.polls import fault_words, meaning_words, polls
 from driveblocks.meaning.reference import reference
-from driveblocks.meaning.status import status
+from driveblocks.meaning.roles import roles
+from driveblocks.meaning.status import registers, status
 from driveblocks.meaning.watchdog import at_rest, feeds
 from driveblocks.meaning.words import MOTIONS, Command, words
 from driveblocks.testing.scenes.drive import KINDS, ORDERS
@@ -51,6 +52,19 @@ class Ability:
         return KINDS[wanted if self.can(wanted) else "stop"]
 
     @cached_property
+    def runs_by_speed(self) -> bool:
+        """Whether the frequency alone says that it runs: not at 0 Hz, and as long as the motor coasts after a trip."""
+        signs = registers(status(self.drive).shows("running"))
+        return {*signs} <= {one.register for one in measures(self.drive)}
+
+    @cached_property
+    def trips_at_once(self) -> bool:
+        """Whether the read that says that it runs no more says, too, that it has tripped."""
+        told = registers(status(self.drive).shows("fault")) or fault_words(self.drive)
+        running = [polls(self.drive)[number - 1].addresses for number in roles(self.drive).running]
+        return all(any(each in read for read in running) for each in told)
+
+    @cached_property
     def absent(self) -> frozenset[str]:
         """Pins that say nothing, since the drive shows nothing of the kind."""
         names = [] if self.measures("output_frequency") else ["OutputFrequencyHz", "AtSpeed"]
@@ -78,12 +92,6 @@ class Ability:
         """Whether what gives the reference its meaning is in the reads that prove standstill."""
         proof = [range(each.address, each.address + each.words) for each in polls(self.drive) if each.fast]
         return all(any(word in each for each in proof) for word in meaning_words(self.drive))
-
-    @cached_property
-    def runs_by_speed(self) -> bool:
-        """Whether a measure says that it runs, so that a motor without current runs as long as it turns."""
-        measured = {one.register for one in measures(self.drive)}
-        return any(each.register in measured for each in status(self.drive).shows("running"))
 
     @cached_property
     def known_by_refusal(self) -> bool:

@@ -297,6 +297,10 @@ def _mistaken(drive: Drive) -> Iterator[tuple[int, str]]:
     for pattern in status(drive).verify:
         bit = pattern.mask & -pattern.mask
         yield pattern.register, f"IF Fate.WrongSetting THEN Value := Value XOR {word(bit)}; END_IF;"
+    for one in status(drive).forbids[:1]:
+        bar = one.patterns[0]
+        shown = f"(Value AND {word(~bar.mask)}) OR {word(bar.word)}"
+        yield bar.register, f"IF Fate.Forbids THEN Value := {shown}; END_IF;"
 
 
 def _proof(drive: Drive) -> Context:

@@ -173,7 +173,7 @@ def _not_able(does: str) -> Iterator[Step]:
 
 
 def _speeds(can: Ability) -> Iterator[Step]:
-    for hertz in (45.0, 10.0, 0.0, 30.0):
+    for hertz in (45.0, 10.0, *([] if can.runs_by_speed else [0.0]), 30.0):
         milli = f"ABS(Seen.Milli - {round(1000 * hertz)}) <= 200"
         yield Step(f"{hertz:g} Hz", {"SpeedReferenceHz": hertz}, milli, 2000, {"Running": True})
         if can.measures("output_frequency"):
@@ -413,7 +413,8 @@ def _trip(can: Ability) -> Iterator[Step]:
     if can.measures("dc_bus_voltage"):
         yield Step("what is kept at a fault was read", {}, f"Motor.Diagnosis.{MEASURED['dc_bus_voltage'].valid}", 2000)
     trips: Shows = {"Fate.Trips": can.codes[1], "Fate.Cause": True}
-    yield Step("it trips", trips, _code_known(can), 1500, _tripped(can) | {"Seen.Starts": 1})
+    coasts: Shows = {"Seen.Starts": 1, "Running": can.runs_by_speed}
+    yield Step("it trips", trips, _code_known(can), 1500, _tripped(can) | coasts)
     yield Step(
         "a stop is sent, so that no run word is left", ms=500, shows={"Seen.Stops >= 2": True, "StopOverdue": False}
     )
@@ -421,6 +422,7 @@ def _trip(can: Ability) -> Iterator[Step]:
     yield Step("the first fault is kept", ms=300, shows={
         "Motor.Diagnosis.FirstFaultCode": can.code, "Motor.Diagnosis.FaultBack1": can.code,
         "Motor.Diagnosis.FirstFaultMs > 200": True, "Motor.Diagnosis.FirstFaultMs < 5000": True,
+        "Motor.Diagnosis.FirstFaultState": 4 if can.trips_at_once else (0, 4),
     } | _measured_at_fault(can))  # fmt: skip
     yield from _gone(can)
     yield Step("released", {"RunForward": False, "FaultReset": False}, "Motor.Ready", 1500)
@@ -438,10 +440,8 @@ def _trip(can: Ability) -> Iterator[Step]:
 def _measured_at_fault(can: Ability) -> Shows:
     """What was read last, before it tripped; a fault that its code alone shows may be seen after the stop."""
     found: Shows = {}
-    if can.shows("fault"):
-        found["Motor.Diagnosis.FirstFaultState"] = 4
-        if can.measures("output_frequency"):
-            found["ABS(Motor.Diagnosis.FirstFaultHz - 30.0) < 8.0"] = True
+    if can.measures("output_frequency") and can.trips_at_once:
+        found["ABS(Motor.Diagnosis.FirstFaultHz - 30.0) < 8.0"] = True
     if can.measures("dc_bus_voltage"):
         found["Motor.Diagnosis.FirstFaultV"] = 540.0
     return found
@@ -461,8 +461,8 @@ def _gone(can: Ability) -> Iterator[Step]:
         sets: Shows = {"Fate.Cause": False, "Fate.KeypadReset": True}
         gone = "Motor.StopConfirmed AND NOT Motor.Fault"
         yield Step("somebody resets it on its keypad", sets, gone, 4000, STANDS | {"FaultCode": 0})
-        held = why("HELD") if can.shows("fault") else f"({why('HELD')}) OR ({why('BY_ITSELF')})"
-        yield Step("the run pin is still held", ms=500, shows={"Seen.Starts": 1, held: True})
+        held: Shows = {"Reason": "HELD"} if can.trips_at_once else {}
+        yield Step("the run pin is still held", ms=500, shows={"Seen.Starts": 1} | held)
 
 
 def _trip_still(can: Ability) -> Iterator[Step]:
@@ -756,6 +756,8 @@ def modes(can: Ability) -> Iterator[Scene]:
         yield scene("a map that nobody has checked", *_unchecked())
     if status(can.drive).verify:
         yield scene("a setting that gives the reference another meaning", POWER, run(), *_wrong_setting())
+    if status(can.drive).forbids:
+        yield scene("what forbids a start", POWER, *_forbidden())
     yield scene("nothing set: the usual values", *_unset())
 
 
@@ -884,6 +886,15 @@ def _wrong_setting() -> Iterator[Step]:
     yield Step("set otherwise, and restarted", {"Fate.WrongSetting": True, "Pins.Restart": True}, ms=20)
     yield Step("the block sees it", {"Pins.Restart": False}, why("SETTING"), 3000, {"Ready": False})
     yield Step("an edge starts nothing", {"RunForward": True}, ms=500, shows={"Seen.Starts": 1, "Reason": "SETTING"})
+
+
+def _forbidden() -> Iterator[Step]:
+    yield Step("the drive shows it", {"Fate.Forbids": True}, why("FORBIDDEN"), 2000, {"Ready": False, "Error": False})
+    yield Step("an edge starts nothing", {"RunForward": True}, ms=500, shows=NOTHING_STARTED | {"Reason": "FORBIDDEN"})
+    over: Shows = {"Fate.Forbids": False, "RunForward": False}
+    yield Step("it is over", over, "Motor.Ready", 2000, {"Reason": "READY"})
+    yield run()
+    yield Step("what runs goes on", {"Fate.Forbids": True}, ms=1500, shows=RUNNING | {"Seen.Starts": 1})
 
 
 def _unset() -> Iterator[Step]:

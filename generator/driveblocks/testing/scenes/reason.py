@@ -12,7 +12,7 @@ REASONS = {
     "HELD": 24, "NOT_ABLE": 25, "MONITOR": 26, "SPEED_ONLY": 27, "STALE": 28, "SLOW_LINE": 29, "MISSING": 30,
     "UNCHECKED": 31, "REFERENCE": 32, "SETTING": 33, "UNREAD": 34, "WRITE_WAITS": 35, "FAULT": 40, "NOT_READY": 41,
     "NO_REFERENCE": 42, "NO_RUN": 43, "REFUSED": 44, "NOT_FOLLOWED": 45, "BY_ITSELF": 46, "NOT_STOPPED": 47,
-    "NO_RESET": 48, "READ_REFUSED": 49, "LATE_REPLIES": 52, "NO_FAULT": 59, "FAULT_BACK": 60,
+    "NO_RESET": 48, "READ_REFUSED": 49, "LATE_REPLIES": 52, "NO_FAULT": 59, "FAULT_BACK": 60, "FORBIDDEN": 61,
 }  # fmt: skip
 
 
@@ -25,6 +25,8 @@ def unreached(can: Ability, *, writes: bool) -> dict[str, str]:
         found["UNCHECKED"] = "the map was read off the manual"
     if not status(can.drive).verify:
         found["SETTING"] = "no setting of the drive that can be read gives the reference another meaning"
+    if not status(can.drive).forbids:
+        found["FORBIDDEN"] = "the map names nothing that forbids a start"
     if not can.shows("ready"):
         found["NOT_READY"] = "the drive does not show whether it is ready"
     if not can.can("fault_reset"):
