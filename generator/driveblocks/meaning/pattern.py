@@ -43,6 +43,12 @@ class Pattern:
         near = {"<>": self.value ^ self.unit, "<": self.value - self.unit, ">": self.value + self.unit}
         return near[self.is_] & self.mask
 
+    @property
+    def other(self) -> "Pattern":
+        """One with which it does not hold: its bits are 0 where that does, else what is nearest."""
+        near = self.unit if self.is_ == "=" else self.value
+        return Pattern(self.register, self.mask, near if self.holds(0) else 0)
+
     def number(self, word: int) -> int:
         """The number in its bits, in their place."""
         found = word & self.mask
