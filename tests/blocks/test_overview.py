@@ -22,7 +22,7 @@ TYPES = {
     "MB_LifeTrack": 20, "MB_OwnerTrack": 9, "MB_Track": 74, "MB_Given": 24, "MB_Heard": 81, "MB_Sums": 81,
     "MB_LineTrack": 21, "MB_Slots8": 8 * 254, "MB_Slots2": 2 * 254,
     "MB_Slots32": 32 * 254, "MB_Tracks8": 8 * 74, "MB_Tracks2": 2 * 74, "MB_Tracks32": 32 * 74, "VFD_Settings": 42,
-    "VFD_Diagnosis": 140, "VFD_Asked": 13, "VFD_Seen": 34,
+    "VFD_Diagnosis": 140, "VFD_Asked": 13, "VFD_Seen": 35,
 }  # fmt: skip
 """ABI 1, typed by hand: 256 bytes; 513 characters; 125 words; 513 words; six fields of two bytes;
 the line's; the drive blocks'."""
