@@ -67,12 +67,29 @@ def test_a_number_below_or_above_another(
         (Pattern(1, 0xFFFF, 20, "<"), Pattern(1, 0xFFFF, 18, ">"), False),
         (Pattern(1, 0xFFFF, 0, "<>"), Pattern(1, 0xFFFF, 0), True),
         (Pattern(1, 0xFFFF, 3), Pattern(1, 0xFFFF, 0, "<>"), False),
-        (Pattern(1, 0xFFFF, 0, "<", signed=True), Pattern(1, 0x8000, 0), True),
+        (Pattern(1, 0xFFFF, 0, "<>"), Pattern(1, 0xFFFF, 1, "<"), True),
+        (Pattern(1, 0xFFFF, 0, "<>"), Pattern(1, 0xFFFF, 2, "<"), False),
+        (Pattern(1, 0xFFFF, 0, "<>"), Pattern(1, 0xFFFF, 7, "<>"), False),
+        (Pattern(1, 0xF0, 0x20, "<"), Pattern(1, 0xF0, 0x10, ">"), True),
+        (Pattern(1, 0xF0, 0x20, "<"), Pattern(1, 0xF3, 0x31), True),
+        (Pattern(1, 0xF0, 0x20, "<"), Pattern(1, 0x10, 0x10), False),
+        (Pattern(1, 0xFFFF, 0xFFF6, ">", signed=True), Pattern(1, 0xFFFF, 0xFFF7, "<", signed=True), True),
+        (Pattern(1, 0xFFFF, 0xFFF6, ">", signed=True), Pattern(1, 0xFFFF, 10, "<", signed=True), False),
         (Pattern(1, 0xFFFF, 20, "<"), Pattern(2, 0xFFFF, 19, ">"), False),
     ],
 )
 def test_patterns_that_never_hold_at_once(one: Pattern, other: Pattern, apart: bool) -> None:
     assert one.excludes(other) == other.excludes(one) == apart
+
+
+def test_numbers_exclude_each_other_as_a_count_of_all_words_says() -> None:
+    values = (0, 1, 2, 5, 0x7FFE, 0x7FFF, 0x8000, 0x8001, 0xFFFE, 0xFFFF)
+    asked = [
+        Pattern(1, 0xFFFF, at, is_, signed=sign) for at in values for is_ in ("<", ">", "<>") for sign in (False, True)
+    ]
+    words = sorted({(each + more) & 0xFFFF for each in values for more in (-3, -2, -1, 0, 1, 2, 3)})
+    held = {one: {word for word in words if one.holds(word)} for one in asked}
+    assert [(one, two) for one in asked for two in asked if one.excludes(two) == bool(held[one] & held[two])] == []
 
 
 def test_a_pattern_holds_for_words_with_its_bits() -> None:

@@ -124,9 +124,18 @@ def test_standstill_is_below_a_frequency_of_the_map() -> None:
 
 def test_what_forbids_a_start_is_read_before_it() -> None:
     block = drive_block(drive("forbidden"))
-    assert block.showing.forbids == ["ExtendedControlBits.NoMonitoringOfTheLine"]
+    assert block.showing.forbids == ["ExtendedControlBits.NoMonitoringOfTheLine", "NOT DriveStatusBits.Enabled"]
     assert roles(drive("forbidden")).verify
-    assert facts(drive("forbidden"))["forbidden"] == "((Reads.ExtendedControlWord AND WORD#16#4000) = WORD#16#4000)"
+    assert facts(drive("forbidden"))["forbidden"] == (
+        "((Reads.ExtendedControlWord AND WORD#16#4000) = WORD#16#4000) "
+        "OR ((Reads.DriveStatusWord AND WORD#16#0002) = WORD#16#0000)"
+    )
+
+
+def test_a_simulated_drive_forbids_nothing_by_itself() -> None:
+    made, forbids = running("forbidden"), status(drive("forbidden")).forbids
+    assert not any(one.holds(made.word(one.register)) for each in forbids for one in each.patterns)
+    assert made.hertz == 20.0
 
 
 def test_one_display_stands_for_several_codes() -> None:

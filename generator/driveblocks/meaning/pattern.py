@@ -43,6 +43,12 @@ class Pattern:
         near = {"<>": self.value ^ self.unit, "<": self.value - self.unit, ">": self.value + self.unit}
         return near[self.is_] & self.mask
 
+    @property
+    def other(self) -> "Pattern":
+        """One with which it does not hold: its bits are 0 where that does, else what is nearest."""
+        near = self.unit if self.is_ == "=" else self.value
+        return Pattern(self.register, self.mask, near if self.holds(0) else 0)
+
     def number(self, word: int) -> int:
         """The number in its bits, in their place."""
         found = word & self.mask
@@ -56,12 +62,17 @@ class Pattern:
         return found < than if self.is_ == "<" else found > than
 
     def excludes(self, other: "Pattern") -> bool:
-        """Whether both never hold at once."""
+        """Whether both never hold at once; of numbers only where both count the same bits."""
         if self.register != other.register:
             return False
         if self.is_ == other.is_ == "=":
             return (self.value ^ other.value) & self.mask & other.mask != 0
-        return not any(self.holds(word) and other.holds(word) for word in range(WORD + 1))
+        for one, two in ((self, other), (other, self)):
+            if one.is_ == "=" and two.mask & ~one.mask == 0:
+                return not two.holds(one.value)
+        ends = (0, self.mask, 0x7FFF, 0x8000, self.value, other.value)
+        near = (each + times * self.unit for each in ends for times in (-2, -1, 0, 1, 2))
+        return self.mask == other.mask and not any(self.holds(word) and other.holds(word) for word in near)
 
 
 def of_condition(condition: Condition | State, row: Register | None = None) -> Pattern:

@@ -57,8 +57,13 @@ class Status:
 
     @property
     def settled(self) -> Patterns:
-        """What registers of settings and identity hold where everything is as it should be."""
-        return (*self.verify, *self.by_bus.patterns, *self.identity.patterns)
+        """What registers of settings and identity hold where all is as it should be, and nothing forbids a start."""
+        return (*self.verify, *self.by_bus.patterns, *self.identity.patterns, *self.allowed)
+
+    @property
+    def allowed(self) -> Patterns:
+        """With these nothing forbids a start."""
+        return tuple(each.other for one in self.forbids for each in one.patterns)
 
 
 @kept

@@ -156,7 +156,7 @@ def _options(fact: Fact) -> list[tuple[Pattern, ...]]:
     if fact.wanted:
         return [(), *(tuple(replace(each, value=each.word, is_="=") for each in all_) for all_ in fact.any)]
     others = (each for all_ in fact.any for each in all_ if each.is_ != "=")
-    turned = [(replace(each, value=each.value if each.holds(0) else 0, is_="="),) for each in others]
+    turned = [(each.other,) for each in others]
     turned += [
         (Pattern(each.register, 1 << bit, 1 << bit),)
         for all_ in fact.any

@@ -12,7 +12,8 @@ from driveblocks.simulator.habits import Habits
 
 def plate(drive: Drive, habits: Habits) -> dict[int, int]:
     words: dict[int, int] = {}
-    for each in (*status(drive).identity.patterns, *status(drive).by_bus.patterns, *chosen(drive)):
+    shows = status(drive)
+    for each in (*shows.identity.patterns, *shows.by_bus.patterns, *shows.allowed, *chosen(drive)):
         words[each.register] = words.get(each.register, 0) & ~each.mask | each.value
     return words | own_maximum_word(drive, habits.maximum_hz)
 
