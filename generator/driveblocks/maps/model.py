@@ -327,7 +327,7 @@ class BaudCode(Entry):
 
     code: Number | None = option(_NO_CODE, "3")
     baud: Count = fact("bits per second", "9600")
-    delivered: bool = option(_DELIVERED, "true", default=False)
+    delivered: bool | None = option(_DELIVERED, "true")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -338,7 +338,7 @@ class FormatCode(Entry):
     parity: Literal["none", "even", "odd"] = fact("parity bit", "even")
     data_bits: Literal[7, 8] | None = option("data bits", "8")
     stop_bits: Literal[1, 2] | None = option("stop bits", "1")
-    delivered: bool = option(_DELIVERED, "true", default=False)
+    delivered: bool | None = option(_DELIVERED, "true")
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -178,7 +178,7 @@ def _factory(choice: BaudChoice | FormatChoice | StopBitsChoice, code: BaudCode 
     """Whether a drive as delivered has what a code chooses, or what nothing chooses."""
     if code.code is not None:
         return code.code == choice.default
-    return len(choice.codes) == 1 or (not isinstance(code, StopBitsCode) and code.delivered)
+    return len(choice.codes) == 1 or (not isinstance(code, StopBitsCode) and bool(code.delivered))
 
 
 def _written(forms: FormatChoice, stops: StopBitsChoice | None) -> Iterator[tuple[bool, Character]]:

@@ -84,7 +84,7 @@ def _stops(code: StopBitsCode) -> str:
 
 def _coded(code: BaudCode | FormatCode, words: str) -> str:
     """What a code chooses, or what the drive has without one."""
-    return f"{words}{' (as delivered)' * code.delivered}" if code.code is None else f"{code.code} = {words}"
+    return f"{words}{' (as delivered)' if code.delivered else ''}" if code.code is None else f"{code.code} = {words}"
 
 
 def _choice(choice: Choice, codes: Iterable[str], always: str = "") -> str:
