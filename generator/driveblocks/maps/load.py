@@ -6,6 +6,7 @@ from pathlib import Path
 
 from driveblocks.maps import base, catalog, check, nodes, numbering, older, pair, source
 from driveblocks.maps.decode import build, decode
+from driveblocks.maps.derived import derived
 from driveblocks.maps.form import WORD
 from driveblocks.maps.model import Drive
 from driveblocks.maps.nodes import Entries, Node
@@ -50,7 +51,7 @@ def _loaded(text: str, report: Report, path: Path | None = None) -> Drive:
     drive: Drive | None = decode(Drive, root, report) if root is not None else None
     report.partial = len(report.problems) > before
     if drive is not None:
-        drive = pair.apart(drive)
+        drive = pair.apart(derived(drive))
         check.check(drive, report)
     older.renewed(parsed, report)
     report.raise_if_any()

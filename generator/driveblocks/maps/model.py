@@ -797,6 +797,14 @@ class Twin(Entry):
 
 
 @dataclass(frozen=True, kw_only=True)
+class TwinRange(Entry):
+    """Twins by a rule: each register of a range that the map lists has one as far into the other range."""
+
+    stored: Addresses = fact("the registers whose writes are stored", "F000H-FEFFH")
+    ram: Addresses = fact("where writes to the same values stay in RAM; the map does not list these", "0000H-0EFFH")
+
+
+@dataclass(frozen=True, kw_only=True)
 class Storage(Entry):
     """What happens to a written parameter: RAM, EEPROM, or unexplained (then it counts as EEPROM)."""
 
@@ -819,6 +827,9 @@ class Storage(Entry):
     area: Word | None = option("ram_address_bit: the only area, or section, where it may be added", "function_codes")
     twins: tuple[Twin, ...] = option(
         "ram_twin: the registers that are there twice", "[{stored: 000EH, ram: 000DH}]", default=()
+    )
+    twin_ranges: tuple[TwinRange, ...] = option(
+        "ram_twin: the same by a rule", "[{stored: F000H-FEFFH, ram: 0000H-0EFFH}]", default=()
     )
     ram_when: Switch | None = option("by_setting: the setting, and its value for RAM", "{setting: H5-05, value: 0}")
     readable: bool = option("ram_address_bit: whether such an address may be read", "false", default=True)
@@ -1343,7 +1354,7 @@ class Absence(Entry):
 
 @dataclass(frozen=True, kw_only=True)
 class Tolerance(Entry):
-    """A departure from the standard that replies of this drive are allowed."""
+    """A departure from the standard that replies are allowed; a write answered by another word is none."""
 
     kind: Literal["two_byte_count"] = fact(
         "`two_byte_count`: the byte count of a read reply may be a word instead of a byte", "two_byte_count"
@@ -1385,6 +1396,11 @@ class Drive(Entry):
         "what the base has and this drive has not, or has otherwise as a whole: keys and names of rows",
         "[settings, faults > codes > 48]",
         default=(),
+    )
+    profile: Switch | None = option(
+        "of a drive whose commands a keypad setting chooses: the value for which this map holds; it is read before a "
+        "start, and another profile is another map, with this one as `base`",
+        "{setting: P33, value: 1}",
     )
     prefix: Annotated[str, form.PREFIX] = fact("what the names of its blocks start with", "SN300G5")
     vendor: Text = fact("maker", "{en: SHUEN, zh: 数恩}")

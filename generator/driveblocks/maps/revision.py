@@ -10,8 +10,9 @@ from structured_text.language.fingerprint import fingerprint
 
 _LATER = {
     "None": "base numbering document trust differs no_address reply_delay group ram_when present_bits needs full_scale "
-    "full_scale_hz warnings silent_ms coil discrete input by counts lower_limit digit stop_bits below above delivered",
-    "()": "never without one_of visible_when twins otherwise does at_0 fed_by editions forbids",
+    "full_scale_hz warnings silent_ms coil discrete input by counts lower_limit digit stop_bits below above delivered "
+    "profile",
+    "()": "never without one_of visible_when twins twin_ranges otherwise does at_0 fed_by editions forbids",
     "False": "negative holds",
 }
 """Keys that the format has learned since the first numbers were printed, by what they are when they are left out."""

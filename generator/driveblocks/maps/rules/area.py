@@ -13,7 +13,7 @@ from driveblocks.maps.rules.unique import overlapping, unique
 _STORAGE_KEYS = {
     "enter_register": ("register", "value"),
     "ram_address_bit": ("add", "area"),
-    "ram_twin": ("twins",),
+    "ram_twin": ("twins",),  # those of `twin_ranges`, too
     "by_setting": ("ram_when",),
     "volatile": (),
     "unexplained": (),
@@ -89,12 +89,7 @@ def _storage(drive: Drive, storage: Storage, report: Report) -> None:
         if allowed is not None and storage.value is not None and not allowed.holds(storage.value):
             wrong = f"{storage.value} is outside the range of {address_text(storage.register)}"
             report.add(storage.place("value"), wrong, f"it holds {allowed.min} to {allowed.max}")
-    twice = [address for twin in storage.twins for address in (twin.stored, twin.ram)]
-    for twin in storage.twins:
-        for key, address in (("stored", twin.stored), ("ram", twin.ram)):
-            known(drive, address, "w", twin.place(key), report)
-            if twice.count(address) > 1:
-                report.add(twin.place(key), f"{address_text(address)} is there twice", "name each register once")
+    _twins(drive, storage, report)
     if storage.ram_when is not None:
         must_be(drive, storage.ram_when, "writes stay in RAM", report)
     named = {*(area.id for area in drive.areas), *(section.id for section in drive.sections)}
@@ -103,6 +98,22 @@ def _storage(drive: Drive, storage: Storage, report: Report) -> None:
         report.miss(storage.place("area"), wrong, "name an entry of `areas` or `sections`")
     elif storage.area is not None and storage.add is not None:
         _address_bit(drive, storage.add, storage.place("add"), report)
+
+
+def _twins(drive: Drive, storage: Storage, report: Report) -> None:
+    twice = [address for twin in storage.twins for address in (twin.stored, twin.ram)]
+    for twin in storage.twins:
+        for key, address in (("stored", twin.stored), ("ram", twin.ram)):
+            known(drive, address, "w", twin.place(key), report)
+            if twice.count(address) > 1:
+                report.add(twin.place(key), f"{address_text(address)} is there twice", "name each register once")
+    for each in storage.twin_ranges:
+        if len(each.stored) != len(each.ram):
+            report.add(
+                each.at, "the two ranges have not one length", "each register has its twin as far into the other"
+            )
+        elif not any(each.stored.first <= twin.stored <= each.stored.last for twin in storage.twins):
+            report.miss(each.place("stored"), "the map lists no register of this range", "list those that are written")
 
 
 def _address_bit(drive: Drive, add: int, place: Place, report: Report) -> None:

@@ -41,6 +41,8 @@ def check(drive: Drive, report: Report) -> None:
         _editions(setting, report)
         _visible(setting, settings, report)
         _register(drive, setting, registers.get(setting.id), report)
+    if drive.profile is not None:
+        _profile(drive, drive.profile, report)
     for _, row in drive.registers():
         if row.scale is not None and row.scale.needs is not None:
             must_be(drive, row.scale.needs, "the scale holds", report)
@@ -53,6 +55,14 @@ def check(drive: Drive, report: Report) -> None:
         _chosen("unit", unit, (), settings.get(unit.setting), report)
     if unit.no_address is not None:
         _no_address(unit, unit.no_address, settings.get(unit.setting or ""), report)
+
+
+def _profile(drive: Drive, profile: Switch, report: Report) -> None:
+    must_be(drive, profile, "this map holds", report)
+    setting = next((each for each in drive.settings if each.id == profile.setting), None)
+    if setting is not None and setting.register is None:
+        wrong = f"nobody can read {setting.id}, which chooses the profile"
+        report.miss(profile.place("setting"), wrong, "add its `register`")
 
 
 def must_be(drive: Drive, switch: Switch, what: str, report: Report) -> None:
