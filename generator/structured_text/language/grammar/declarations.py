@@ -170,11 +170,11 @@ def _string_spec(cursor: Cursor) -> tree.Spec:
     cursor.i += 1
     bracket = cursor.kinds[cursor.i]
     if bracket not in ("[", "("):
-        return tree.StringSpec(at, wide, None, "")
+        return tree.StringSpec(at, wide, None)
     cursor.i += 1
     length = expression(cursor)
     cursor.expect("]" if bracket == "[" else ")")
-    return tree.StringSpec(at, wide, length, bracket)
+    return tree.StringSpec(at, wide, length)
 
 
 def _array_spec(cursor: Cursor) -> tree.Spec:
