@@ -13,7 +13,7 @@ from tests.shapes import values
 
 from driveblocks.cli import app
 from driveblocks.desk.bus import Bus
-from driveblocks.desk.simulate.stand import view
+from driveblocks.desk.simulate.setup import view
 from driveblocks.desk.site.register import rows, value
 from driveblocks.maps.collection import Source
 from driveblocks.maps.load import loads

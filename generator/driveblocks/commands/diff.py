@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from driveblocks.commands import refuse
+from driveblocks.commands import echo_json, refuse
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -53,10 +53,8 @@ def run(old: str, new: str, changelog: bool, json: bool) -> None:
 
 
 def _json(changes: "list[Change]") -> None:
-    from json import dumps
-
     rows = [{"kind": each.kind.name.lower(), "where": each.where, "what": each.what} for each in changes]
-    click.echo(dumps(rows, ensure_ascii=False, indent=2))
+    echo_json(rows)
 
 
 def _lines(old: str, new: str, changes: "list[Change]", *, words: bool, markdown: bool) -> "Iterator[str]":

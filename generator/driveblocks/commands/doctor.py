@@ -5,6 +5,8 @@ from typing import TYPE_CHECKING
 
 import click
 
+from driveblocks.commands import echo_json
+
 if TYPE_CHECKING:
     from driveblocks.output.health import Health
 
@@ -28,9 +30,7 @@ def run(json: bool) -> None:
 
     health = examine(survey())
     if json:
-        from json import dumps
-
-        click.echo(dumps(health.plain(), ensure_ascii=False, indent=2))
+        echo_json(health.plain())
     elif sys.stdout.isatty():
         _print_tables(health)
     else:

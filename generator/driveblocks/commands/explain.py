@@ -5,6 +5,8 @@ from typing import TYPE_CHECKING
 
 import click
 
+from driveblocks.commands import echo_json
+
 if TYPE_CHECKING:
     from driveblocks.desk.explain.explanation import Explanation
     from driveblocks.maps.model import Drive
@@ -51,11 +53,9 @@ def _stdin() -> str:
 
 def _print(made: "Explanation", drive: "Drive | None", stem: str | None, json: bool) -> None:
     if json:
-        from json import dumps
-
         from driveblocks.desk.explain import plain
 
-        click.echo(dumps(plain.of_explanation(made, stem), ensure_ascii=False, indent=2))
+        echo_json(plain.of_explanation(made, stem))
         return
     from driveblocks import console
     from driveblocks.desk.explain import page

@@ -5,7 +5,7 @@ from typing import Any
 
 import click
 
-from driveblocks.commands import FILE, only_over, write
+from driveblocks.commands import FILE, echo_json, only_over, write
 
 PICTURE = only_over(rb"<svg [^>]*>\s*<title>One round of polls: ", "line --picture")
 
@@ -52,7 +52,6 @@ def run(picture: Path | None, json: bool, **words: Any) -> None:
     Example: driveblocks line chf@1 chf@2 jscc@3 --rate 19200 --stop-within 500ms --picture round.svg
     """
     import sys
-    from json import dumps
 
     from driveblocks import console
     from driveblocks.desk.site import asked, report
@@ -65,7 +64,7 @@ def run(picture: Path | None, json: bool, **words: Any) -> None:
     if picture is not None:
         write(picture, pictures.drawn(own))
     if json:
-        click.echo(dumps(report.plain(tried), ensure_ascii=False, indent=2))
+        echo_json(report.plain(tried))
     else:
         console.write(*report.tables(tried))
     untold = [each for each in report.mistaken(line) if not each.told]

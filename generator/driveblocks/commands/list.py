@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from driveblocks.commands import MAPS
+from driveblocks.commands import MAPS, echo_json
 
 if TYPE_CHECKING:
     from driveblocks.maps.model import Drive
@@ -46,8 +46,6 @@ def _load(path: Path) -> "Drive | None":
 
 
 def _print_json(loaded: "dict[Path, Drive]") -> None:
-    from json import dumps
-
     from driveblocks.maps import counts, trust, view
 
     drives = [
@@ -59,7 +57,7 @@ def _print_json(loaded: "dict[Path, Drive]") -> None:
         }
         for path, drive in loaded.items()
     ]
-    click.echo(dumps(drives, ensure_ascii=False, indent=2))
+    echo_json(drives)
 
 
 def _print_table(loaded: "dict[Path, Drive]") -> None:

@@ -5,7 +5,7 @@ from typing import Any
 
 import click
 
-from driveblocks.commands import FILE
+from driveblocks.commands import FILE, echo_json
 
 
 @click.command()
@@ -27,15 +27,13 @@ def run(json: bool, **words: Any) -> None:
 
     Example: driveblocks listen chf@1 jscc@2 --port /dev/ttyUSB0 --log line.log
     """
-    from json import dumps
-
     from driveblocks import console
     from driveblocks.desk.site import listen, overheard
 
     way, traffic, ended, wrong = listen.run(listen.Words(**words))
     if json:
         told = overheard.plain(way, traffic) | {"ended": ended, "not_complete": wrong}
-        click.echo(dumps(told, ensure_ascii=False, indent=2))
+        echo_json(told)
     elif way is not None:
         console.write(*overheard.tables(way, traffic))
     else:

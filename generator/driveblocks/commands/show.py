@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from driveblocks.commands import refuse
+from driveblocks.commands import echo_json, refuse
 
 if TYPE_CHECKING:
     from rich.console import RenderableType
@@ -42,15 +42,13 @@ def run(drive: str, what: str | None, json: bool) -> None:
 
 
 def _print_json(drive: "Drive", stem: str, what: str | None, topic: str | None) -> None:
-    from json import dumps
-
     from driveblocks.maps import view
 
     if what is not None and topic is None:
         refuse(f"`--json` prints a whole drive or a topic, not `{what}`; topics are {', '.join(TOPICS)}")
     everything = view.of_drive(drive, stem)
     shown = {"drive": stem, topic: everything[topic]} if topic else everything
-    click.echo(dumps(shown, ensure_ascii=False, indent=2))
+    echo_json(shown)
 
 
 def _pages(drive: "Drive", file: str, what: str | None, topic: str | None) -> "Iterator[RenderableType]":

@@ -9,6 +9,7 @@ from pathlib import Path
 from driveblocks.desk import script
 from driveblocks.desk.port import reason
 from driveblocks.maps.problem import Refused
+from driveblocks.meaning.serial import FORMS
 from structured_text import files
 
 NO_PORT = "--port names no port; write one such as /dev/ttyUSB0 or COM3"
@@ -29,6 +30,14 @@ def time(word: str, text: str, least: int, most: int) -> int:
     if not least <= us <= most:
         raise Refused(f"{word} {text} is out of range; write {least / 1e6:g}s to {most / 1e6:g}s")
     return us
+
+
+def wrong_speech(rate: int | None, form: str | None) -> Iterator[str]:
+    """What is wrong with a bit rate and a format, where they are named."""
+    if rate is not None and not 300 <= rate <= 1_000_000:
+        yield f"--rate {rate} is out of range; write 300 to 1000000 bit/s"
+    if form is not None and form.upper() not in FORMS:
+        yield f"--format {form} is no format; write one of {', '.join(FORMS)}"
 
 
 @contextmanager

@@ -229,8 +229,6 @@ class Ordering:
     """The function code of stops."""
     by: int
     """That of the reference."""
-    mixed: bool
-    """Not all are written by one function."""
     referred: Reference
     silent: tuple[int, int] | None
     """The write of the fault reset that makes the drive silent, and for how long, ms."""
@@ -336,7 +334,6 @@ def _ordering(drive: Drive) -> Ordering:
         keeps=context.kept(drive),
         write=by,
         by=of_speed,
-        mixed={each.function for writes in orders.values() for each in writes} | {of_speed} != {by},
         referred=reference(drive),
         silent=drive.operation.silenced,
     )

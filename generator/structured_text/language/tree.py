@@ -377,11 +377,10 @@ class NamedSpec(Spec):
 
 @dataclass(slots=True, eq=False)
 class StringSpec(Spec):
-    """`STRING`, `STRING[20]`, `STRING(20)`; `bracket` is `[`, `(` or empty."""
+    """`STRING`, `STRING[20]`, `STRING(20)`."""
 
     wide: bool
     length: Expression | None
-    bracket: str
 
 
 @dataclass(slots=True, eq=False)

@@ -21,7 +21,7 @@ from driveblocks.desk.bus import Bus
 from driveblocks.desk.clock import RealClock
 from driveblocks.desk.ending import Ending
 from driveblocks.desk.simulate.link import PtyLink
-from driveblocks.desk.simulate.stand import Stand
+from driveblocks.desk.simulate.setup import Stand
 from driveblocks.simulator.drive import SimulatedDrive
 from driveblocks.simulator.habits import Habits
 from structured_text.engines.matiec.installation import Installation

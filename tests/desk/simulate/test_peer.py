@@ -16,7 +16,7 @@ from driveblocks.desk.clock import RealClock
 from driveblocks.desk.ending import Ending
 from driveblocks.desk.port import Port
 from driveblocks.desk.simulate.link import PtyLink, TcpLink
-from driveblocks.desk.simulate.stand import Stand
+from driveblocks.desk.simulate.setup import Stand
 
 MODES = {"rtu": FramerType.RTU, "ascii": FramerType.ASCII}
 LINKS = [

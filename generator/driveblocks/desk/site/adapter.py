@@ -14,8 +14,7 @@ from driveblocks.desk.master import Master, Speech
 from driveblocks.desk.port import Port
 from driveblocks.desk.site.found import Way
 from driveblocks.desk.site.reader import Reads
-from driveblocks.desk.words import LOOPBACK, NO_PORT, is_port
-from driveblocks.meaning.serial import FORMS
+from driveblocks.desk.words import LOOPBACK, NO_PORT, is_port, wrong_speech
 
 LOOK_US = 500
 MOST_US = 1_000_000
@@ -134,7 +133,4 @@ def wrong(name: str | None, address: str | None, rate: int | None, form: str | N
         yield NO_PORT
     if address is not None and not is_port(address.rpartition(":")[2]):
         yield f"--tcp {address} is no address; write HOST:PORT, with a port of 1 to 65535"
-    if rate is not None and not 300 <= rate <= 1_000_000:
-        yield f"--rate {rate} is out of range; write 300 to 1000000 bit/s"
-    if form is not None and form.upper() not in FORMS:
-        yield f"--format {form} is no format; write one of {', '.join(FORMS)}"
+    yield from wrong_speech(rate, form)

@@ -11,13 +11,13 @@ from driveblocks.desk.run.drives import named as drives_of
 from driveblocks.desk.run.drives import words as words_of
 from driveblocks.desk.run.watchdog import FIRST_US
 from driveblocks.desk.site.line import LEARNED_AFTER, PINS, SLOT, Line, Unit, number
-from driveblocks.desk.words import time
+from driveblocks.desk.words import time, wrong_speech
 from driveblocks.maps import catalog
 from driveblocks.maps.collection import Source
 from driveblocks.maps.plan import writes_by
 from driveblocks.maps.problem import Refused
 from driveblocks.meaning.polls import Poll, polls
-from driveblocks.meaning.serial import FORMS, USUAL_BITS, USUAL_RATE, character, delivered, serial
+from driveblocks.meaning.serial import USUAL_BITS, USUAL_RATE, character, delivered, serial
 from driveblocks.meaning.words import words as commands
 from structured_text import files
 from structured_text.engines.embedded.library import EmbeddedInstance
@@ -86,10 +86,7 @@ def _ms(option: str, text: str | None, least: int, most: int, wrong: list[str]) 
 def _wrong_words(words: Words) -> Iterator[str]:
     if not (words.line or words.device):
         yield "name a drive or a program; for example: driveblocks line chf@1 jscc@2"
-    if words.rate is not None and not 300 <= words.rate <= 1_000_000:
-        yield f"--rate {words.rate} is out of range; write 300 to 1000000 bit/s"
-    if words.form is not None and words.form.upper() not in FORMS:
-        yield f"--format {words.form} is no format; write one of {', '.join(FORMS)}"
+    yield from wrong_speech(words.rate, words.form)
     for count in words.device:
         if not 1 <= count <= 16:
             yield f"--device {count} is out of range; write 1 to 16 registers"

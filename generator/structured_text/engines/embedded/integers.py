@@ -56,51 +56,36 @@ def c_name(each: CInteger) -> str:
 
 
 def shift_left(number: int, places: int, width: int) -> int:
-    """SHL; the standard makes negative places an error. FaultError."""
-    if places < 0:
-        raise FaultError(f"a shift by {places} places: the number of places must not be negative")
+    """SHL. FaultError."""
+    _refuse_places(places, width)
     return (number << places) & ((1 << width) - 1) if places < width else 0
 
 
 def shift_right(number: int, places: int, width: int) -> int:
-    """SHR; the standard makes negative places an error. FaultError."""
-    if places < 0:
-        raise FaultError(f"a shift by {places} places: the number of places must not be negative")
+    """SHR. FaultError."""
+    _refuse_places(places, width)
     return number >> places if places < width else 0
 
 
-def careful_shift_left(number: int, places: int, width: int) -> int:
-    """SHL where C and the standard agree: in C a shift by the full width or more is undefined. FaultError."""
-    return shift_left(number, _defined(places, width), width)
-
-
-def careful_shift_right(number: int, places: int, width: int) -> int:
-    """SHR where C and the standard agree. FaultError."""
-    return shift_right(number, _defined(places, width), width)
-
-
-def _defined(places: int, width: int) -> int:
+def _refuse_places(places: int, width: int) -> None:
+    """Negative places are an error by the standard, the full width or more is undefined in C."""
+    if places < 0:
+        raise FaultError(f"a shift by {places} places: the number of places must not be negative")
     if places >= max(width, 32):
         raise FaultError(f"a shift by {places} places: C does not define a shift by {max(width, 32)} or more")
-    return places
 
 
 def rotate_left(number: int, places: int, width: int) -> int:
-    """ROL; negative places turn the other way."""
+    """ROL; the standard makes negative places an error. FaultError."""
+    if places < 0:
+        raise FaultError(f"a rotation by {places} places: the number of places must not be negative")
     places %= width
     return ((number << places) | (number >> (width - places))) & ((1 << width) - 1)
 
 
-def careful_rotate_left(number: int, places: int, width: int) -> int:
-    """ROL; the standard makes negative places an error. FaultError."""
-    if places < 0:
-        raise FaultError(f"a rotation by {places} places: the number of places must not be negative")
-    return rotate_left(number, places, width)
-
-
-def careful_rotate_right(number: int, places: int, width: int) -> int:
-    """ROR; the standard makes negative places an error. FaultError."""
-    return careful_rotate_left(number, width - places % width if places >= 0 else places, width)
+def rotate_right(number: int, places: int, width: int) -> int:
+    """ROR. FaultError."""
+    return rotate_left(number, width - places % width if places >= 0 else places, width)
 
 
 # ------------------------------------------------------------ BCD

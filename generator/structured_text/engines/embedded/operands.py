@@ -76,8 +76,7 @@ def index(scope: Scope, value: tree.Index) -> Term:
     """An element of an array."""
     pen = scope.pen
     node = term_of(scope, value.base).node
-    kind = plain(value.base.type)
-    kind = known(kind, Array)
+    kind = known(plain(value.base.type), Array)
     for each, (low, high) in zip(value.indices, kind.bounds, strict=True):
         name = written(value.base)
         offset = _offset(scope, each, name, low, high)

@@ -20,8 +20,7 @@ _OPPOSITE = {"<": ">=", ">": "<=", "<=": ">", ">=": "<", "=": "<>", "<>": "="}
 
 def declared(variable: tree.VarDecl) -> Interval:
     """The values that a variable can hold; every store into a subrange is checked."""
-    kind = variable.type
-    kind = known(kind, Elementary)
+    kind = known(variable.type, Elementary)
     if isinstance(kind, Subrange):
         return kind.first, kind.last
     return kind.low, kind.high

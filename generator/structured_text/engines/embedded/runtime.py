@@ -15,14 +15,9 @@ from structured_text.language.types import ELEMENTARY
 
 def namespace(run: Run) -> dict[str, Any]:
     """A fresh namespace, bound to one clock."""
-    table = {MARK: True, "__builtins__": {}, "run": run}
-    table |= _ALIKE
-    table |= _careful()
+    table = {MARK: True, "__builtins__": {}, "run": run} | _OPERATIONS
     # Variables of ST are in upper case too, and must not hide a function of the same name.
     return {f"std_{name}" if name.isupper() else name: each for name, each in table.items()}
-
-
-# ------------------------------------------------------------ alike everywhere
 
 
 def _endless() -> None:
@@ -40,66 +35,16 @@ def _not_once(now: int, stop: int, step: int) -> None:
 
 
 def _whole_from_string(text: bytes, name: str, width: int, signed: bool) -> int:
-    number = spellings.careful_to_whole(text)
+    number = spellings.to_whole(text)
     if integers.wrap(number, width, signed) != number:
         raise FaultError(f"{number} does not fit {name}")
     return number
-
-
-_ALIKE: dict[str, Any] = {
-    "abs": abs, "float": float, "len": len, "max": max, "min": min, "setattr": setattr, "single": reals.single,
-    "whole_to_single": reals.whole_to_single, "agree": reals.agree, "agree_truth": reals.agree_truth,
-    "below_bounds": below_bounds, "leaves_type": integers.leaves_type, "leaves_c": integers.leaves_c,
-    "leaves_open": integers.leaves_open, "leaves_range": integers.leaves_range, "divide": integers.divide,
-    "remainder": integers.remainder, "from_bcd": integers.from_bcd, "to_bcd": integers.to_bcd,
-    "string_from_bool": spellings.from_bool, "string_from_whole": spellings.from_whole, "endless": _endless,
-    "aliased": _aliased, "not_once": _not_once,
-}  # fmt: skip
 
 
 def _mux(which: int, _zero: Any, *inputs: Any) -> Any:
     if not 0 <= which < len(inputs):
         raise FaultError(f"MUX with K = {which}, but its inputs are 0..{len(inputs) - 1}")
     return inputs[which]
-
-
-# ------------------------------------------------------------ fail where the standard and C can differ
-
-
-def _careful() -> dict[str, Any]:
-    table: dict[str, Any] = {name: reals.guarded(name, each) for name, each in reals.MATHEMATICS.items()}
-    table |= {
-        "power": reals.power,
-        "round_to_whole": _careful_round,
-        "cut_to_whole": _careful_cut,
-        "shift_left": integers.careful_shift_left,
-        "shift_right": integers.careful_shift_right,
-        "rotate_left": integers.careful_rotate_left,
-        "rotate_right": integers.careful_rotate_right,
-        "limit": _careful_limit,
-        "mux": _mux,
-        "time_add": times.careful_add,
-        "time_subtract": times.careful_subtract,
-        "time_multiply": times.careful_multiply,
-        "time_divide": times.careful_divide,
-        "date_of": times.date_of,
-        "time_of_day": times.time_of_day,
-        "time_to_bool": bool,
-        "string_order": strings.careful_order,
-        "string_to_bool": spellings.to_bool,
-        "string_to_whole": _whole_from_string,
-        "string_to_real": spellings.careful_to_real,
-    }
-    table |= {"LEFT": strings.left, "RIGHT": strings.right, "MID": strings.mid, "CONCAT": strings.concat}
-    table |= {"INSERT": strings.insert, "DELETE": strings.delete}
-    table |= {"REPLACE": strings.careful_replace, "FIND": strings.careful_find}
-    seconds = "a number as TIME, or a TIME as a number: seconds on matiec, milliseconds elsewhere"
-    table |= dict.fromkeys(("time_from_number", "time_to_whole", "time_to_real"), _differing(seconds))
-    moments = "a time as STRING, or a STRING as a time: every compiler writes it in its own way"
-    table |= dict.fromkeys(("string_from_time", "string_from_date", "string_to_time"), _differing(moments))
-    bits = "a bit string or REAL as STRING: every compiler writes it in its own way"
-    table |= dict.fromkeys(("string_from_bits", "string_from_real"), _differing(bits))
-    return table
 
 
 def _differing(text: str) -> Callable[..., Any]:
@@ -111,12 +56,12 @@ def _differing(text: str) -> Callable[..., Any]:
 
 def _careful_round(number: float, name: str, width: int, signed: bool) -> int:
     value = reals.nearest(number) if math.isfinite(number) else None
-    return _fitting(number, value, _c_round(number, name, width, signed), name)
+    return _fitting(number, value, integers.wrap(reals.c_nearest(number, signed), width, signed), name)
 
 
 def _careful_cut(number: float, name: str, width: int, signed: bool) -> int:
     value = int(number) if math.isfinite(number) else None
-    return _fitting(number, value, _c_cut(number, name, width, signed), name)
+    return _fitting(number, value, _c_cut(number, width, signed), name)
 
 
 def _fitting(number: float, value: int | None, in_c: int, name: str) -> int:
@@ -138,13 +83,36 @@ def _careful_limit(low: Any, value: Any, high: Any) -> Any:
     return limited
 
 
-def _c_round(number: float, _name: str, width: int, signed: bool) -> int:
-    return integers.wrap(reals.c_nearest(number, signed), width, signed)
-
-
-def _c_cut(number: float, _name: str, width: int, signed: bool) -> int:
+def _c_cut(number: float, width: int, signed: bool) -> int:
     """TRUNC: compilers convert through 32 bits what fits 32 bits signed, through 64 what is UDINT or wider."""
     if width == 64 and not signed:
         return reals.c_cut_unsigned_64(number) & ((1 << 64) - 1)
     register = 32 if width < 32 or (width == 32 and signed) else 64
     return integers.wrap(reals.c_cut(number, register), width, signed)
+
+
+_SECONDS = _differing("a number as TIME, or a TIME as a number: seconds on matiec, milliseconds elsewhere")
+_MOMENTS = _differing("a time as STRING, or a STRING as a time: every compiler writes it in its own way")
+_BITS = _differing("a bit string or REAL as STRING: every compiler writes it in its own way")
+_OPERATIONS: dict[str, Any] = {name: reals.guarded(name, each) for name, each in reals.MATHEMATICS.items()} | {
+    "abs": abs, "float": float, "len": len, "max": max, "min": min, "setattr": setattr,
+    "endless": _endless, "aliased": _aliased, "not_once": _not_once, "below_bounds": below_bounds,
+    "single": reals.single, "whole_to_single": reals.whole_to_single, "power": reals.power,
+    "agree": reals.agree, "agree_truth": reals.agree_truth,
+    "round_to_whole": _careful_round, "cut_to_whole": _careful_cut, "limit": _careful_limit, "mux": _mux,
+    "leaves_type": integers.leaves_type, "leaves_c": integers.leaves_c, "leaves_open": integers.leaves_open,
+    "leaves_range": integers.leaves_range, "divide": integers.divide, "remainder": integers.remainder,
+    "shift_left": integers.shift_left, "shift_right": integers.shift_right,
+    "rotate_left": integers.rotate_left, "rotate_right": integers.rotate_right,
+    "from_bcd": integers.from_bcd, "to_bcd": integers.to_bcd,
+    "time_add": times.add, "time_subtract": times.subtract, "time_multiply": times.multiply,
+    "time_divide": times.divide, "date_of": times.date_of, "time_of_day": times.time_of_day, "time_to_bool": bool,
+    "time_from_number": _SECONDS, "time_to_whole": _SECONDS, "time_to_real": _SECONDS,
+    "LEFT": strings.left, "RIGHT": strings.right, "MID": strings.mid, "CONCAT": strings.concat,
+    "INSERT": strings.insert, "DELETE": strings.delete, "REPLACE": strings.replace, "FIND": strings.find,
+    "string_order": strings.order, "string_from_bool": spellings.from_bool, "string_from_whole": spellings.from_whole,
+    "string_to_bool": spellings.to_bool, "string_to_whole": _whole_from_string, "string_to_real": spellings.to_real,
+    "string_from_time": _MOMENTS, "string_from_date": _MOMENTS, "string_to_time": _MOMENTS,
+    "string_from_bits": _BITS, "string_from_real": _BITS,
+}  # fmt: skip
+"""Every operation by the name that the compiler writes; those of ST in upper case."""

@@ -1,4 +1,4 @@
-"""Values as STRING and back: literals of the standard, or what matiec writes and reads (`c_`)."""
+"""Values as STRING and back: literals of the standard, where matiec reads them (`_c_`) as the same."""
 
 from structured_text.engines.embedded.faults import FaultError
 from structured_text.engines.embedded.integers import wrap
@@ -18,7 +18,15 @@ _BASES = {b"2#": 2, b"8#": 8, b"16#": 16}
 
 
 def to_whole(text: bytes) -> int:
-    """STRING_TO_INT of a literal: sign, digits, underscores, or a based number. FaultError."""
+    """STRING_TO_INT of a literal. FaultError."""
+    number, in_c = _whole(text), _c_to_whole(text)
+    if in_c != number:
+        raise FaultError(f"{text!r} is {number} by the standard and {in_c} on matiec")
+    return number
+
+
+def _whole(text: bytes) -> int:
+    """A literal by the standard: sign, digits, underscores, or a based number. FaultError."""
     digits = text.replace(b"_", b"")
     for prefix, base in _BASES.items():
         if digits.startswith(prefix):
@@ -36,9 +44,13 @@ def _parsed(text: bytes, digits: bytes, base: int) -> int:
 def to_real(text: bytes) -> float:
     """STRING_TO_REAL of a literal. FaultError."""
     try:
-        return float(text)
+        number = float(text)
     except ValueError as error:
         raise FaultError(f"{text!r} is no number") from error
+    in_c = _c_to_real(text)
+    if in_c != number:
+        raise FaultError(f"{text!r} is {number} by the standard and {in_c} on matiec")
+    return number
 
 
 def to_bool(text: bytes) -> bool:
@@ -49,7 +61,7 @@ def to_bool(text: bytes) -> bool:
     return word in (b"TRUE", b"1")
 
 
-def c_to_whole(text: bytes) -> int:
+def _c_to_whole(text: bytes) -> int:
     """STRING_TO_INT as matiec reads it: from the right, skipping what is no digit."""
     for prefix, bits in ((b"2#", 1), (b"8#", 3), (b"16#", 4)):
         if text.startswith(prefix) and len(text) > len(prefix) - 1:
@@ -79,32 +91,13 @@ def _c_based(digits: bytes, bits: int) -> int:
     return total
 
 
-def c_to_real(text: bytes) -> float:
+def _c_to_real(text: bytes) -> float:
     """STRING_TO_REAL as matiec reads it: with a point by atof, without one as a signed integer of 64 bits."""
     if b"." not in text[1:]:
-        return float(wrap(c_to_whole(text), 64, True))
+        return float(wrap(_c_to_whole(text), 64, True))
     for end in range(len(text), 0, -1):
         try:
             return float(text[:end])
         except ValueError:
             continue
     return 0.0
-
-
-# ------------------------------------------------------------ where the standard and C agree
-
-
-def careful_to_whole(text: bytes) -> int:
-    """STRING_TO_INT of a literal that matiec reads as the same number. FaultError."""
-    number = to_whole(text)
-    if c_to_whole(text) != number:
-        raise FaultError(f"{text!r} is {number} by the standard and {c_to_whole(text)} on matiec")
-    return number
-
-
-def careful_to_real(text: bytes) -> float:
-    """STRING_TO_REAL of a literal that matiec reads as the same number. FaultError."""
-    number = to_real(text)
-    if c_to_real(text) != number:
-        raise FaultError(f"{text!r} is {number} by the standard and {c_to_real(text)} on matiec")
-    return number

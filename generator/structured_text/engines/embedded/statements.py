@@ -165,8 +165,7 @@ def _matches(scope: Scope, name: str, low: int, high: int) -> ast.expr:
 
 def _label(scope: Scope, label: tree.Expression | tree.LabelRange, selector: tree.Expression) -> tuple[int, int]:
     """The values that a label covers."""
-    evaluate = scope.shapes.evaluate
-    evaluate = present(evaluate)
+    evaluate = present(scope.shapes.evaluate)
     if isinstance(label, tree.LabelRange):
         return evaluate(label.low, selector.type), evaluate(label.high, selector.type)
     value = evaluate(label, selector.type)

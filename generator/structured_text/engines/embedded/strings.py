@@ -57,26 +57,16 @@ def delete(text: bytes, count: int, position: int) -> bytes:
 
 def replace(text: bytes, other: bytes, count: int, position: int) -> bytes:
     """REPLACE `count` characters from `position` on by all of `other`. FaultError."""
+    if len(other) > count:
+        raise FaultError(f"REPLACE of {count} characters by {len(other)}: matiec inserts only {count} of them")
     _characters(text, position, position + count - 1, "REPLACE")
     return _built(text[: position - 1] + other + text[position - 1 + count :], "REPLACE")
 
 
 def find(text: bytes, other: bytes) -> int:
-    """FIND: where `other` begins (1-based), 0 if nowhere or empty."""
-    return text.find(other) + 1 if other else 0
-
-
-def careful_replace(text: bytes, other: bytes, count: int, position: int) -> bytes:
-    """REPLACE where matiec, which takes no more of `other` than it removes, agrees. FaultError."""
-    if len(other) > count:
-        raise FaultError(f"REPLACE of {count} characters by {len(other)}: matiec inserts only {count} of them")
-    return replace(text, other, count, position)
-
-
-def careful_find(text: bytes, other: bytes) -> int:
-    """FIND where both lines of matiec agree with the standard. FaultError."""
-    found = find(text, other)
-    if found != _naive_find(text, other) or found != openplc_find(text, other):
+    """FIND: where `other` begins (1-based), 0 if nowhere or empty. FaultError where a line of matiec differs."""
+    found = text.find(other) + 1 if other else 0
+    if found != _naive_find(text, other) or found != _openplc_find(text, other):
         raise FaultError("FIND gives different results among compilers for these strings")
     return found
 
@@ -92,7 +82,7 @@ def _naive_find(text: bytes, other: bytes) -> int:
     return start + 1 if matched == len(other) else 0
 
 
-def openplc_find(text: bytes, other: bytes) -> int:
+def _openplc_find(text: bytes, other: bytes) -> int:
     """The OpenPLC line of matiec: it takes a match of all but the last character for none, and others for one."""
     start, matched = _scan(text, other)
     return 0 if matched == len(other) - 1 else start + 1
@@ -111,7 +101,7 @@ def _scan(text: bytes, other: bytes) -> tuple[int, int]:
 # ------------------------------------------------------------ comparison
 
 
-def careful_order(left_text: bytes, right_text: bytes) -> int:
+def order(left_text: bytes, right_text: bytes) -> int:
     """Negative, zero or positive. FaultError where one is the beginning of the other: OpenPLC calls them equal."""
     if left_text == right_text:
         return 0

@@ -103,8 +103,7 @@ class Pen:
 
     def increment(self, target: ast.expr) -> ast.AugAssign:
         """Write `target += 1` for a subscript."""
-        target = writable(target)
-        target = known(target, ast.Subscript)
+        target = known(writable(target), ast.Subscript)
         return ast.AugAssign(target, ast.Add(), self.constant(1), **self.here)
 
     def statement(self, value: ast.expr) -> ast.Expr:

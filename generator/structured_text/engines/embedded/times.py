@@ -45,17 +45,6 @@ def _long(number: int) -> int:
     return number if -(1 << 63) <= number < 1 << 63 else wrap(number, 64, True)
 
 
-# ------------------------------------------------------------ arithmetic on pairs
-
-
-def c_add(left: Span, right: Span) -> Span:
-    return normalised(left[0] + right[0], left[1] + right[1])
-
-
-def c_subtract(left: Span, right: Span) -> Span:
-    return normalised(left[0] - right[0], left[1] - right[1])
-
-
 def c_multiply(left: Span, factor: float) -> Span:
     """Multiply as matiec does: in doubles, the nanoseconds through a 32-bit int."""
     factor = float(factor)
@@ -82,51 +71,43 @@ def _quotient(number: int, divisor: float) -> float:
     return number / divisor
 
 
-# ------------------------------------------------------------ arithmetic on nanoseconds
-
-
-def multiply(left: int, factor: float) -> int:
-    """MUL of the standard, to the nearest nanosecond. FaultError for NaN and infinity."""
-    return left * factor if isinstance(factor, int) else round(left * _fraction(factor))
-
-
-def divide(left: int, divisor: float) -> int:
-    """DIV of the standard, to the nearest nanosecond. ZeroDivisionError; FaultError for NaN and infinity."""
-    return round(left / _fraction(divisor))
-
-
 def _fraction(number: float) -> Fraction:
     if isinstance(number, float) and not math.isfinite(number):
         raise FaultError(f"a duration cannot be multiplied or divided by {number}")
     return Fraction(number)
 
 
-_REPRESENTATION = "matiec's TIME arithmetic gives a value here that compares wrongly; count integer milliseconds"
+# ------------------------------------------------------------ arithmetic on nanoseconds, where matiec's is the same
 
 
-def careful_add(left: int, right: int) -> int:
-    """Add where matiec's pair stays normalised. FaultError."""
-    return _sound(left + right, c_add(pair(left), pair(right)))
+def add(left: int, right: int) -> int:
+    """ADD. FaultError."""
+    one, two = pair(left), pair(right)
+    return _sound(left + right, normalised(one.seconds + two.seconds, one.nanoseconds + two.nanoseconds))
 
 
-def careful_subtract(left: int, right: int) -> int:
-    """Subtract where matiec's pair stays normalised. FaultError."""
-    return _sound(left - right, c_subtract(pair(left), pair(right)))
+def subtract(left: int, right: int) -> int:
+    """SUB. FaultError."""
+    one, two = pair(left), pair(right)
+    return _sound(left - right, normalised(one.seconds - two.seconds, one.nanoseconds - two.nanoseconds))
 
 
-def careful_multiply(left: int, factor: float) -> int:
-    """Multiply where matiec loses nothing. FaultError."""
-    return _sound(multiply(left, factor), c_multiply(pair(left), float(factor)))
+def multiply(left: int, factor: float) -> int:
+    """MUL, to the nearest nanosecond. FaultError, also for NaN and infinity."""
+    product = left * factor if isinstance(factor, int) else round(left * _fraction(factor))
+    return _sound(product, c_multiply(pair(left), float(factor)))
 
 
-def careful_divide(left: int, divisor: float) -> int:
-    """Divide where matiec loses nothing. FaultError, ZeroDivisionError."""
-    return _sound(divide(left, divisor), c_divide(pair(left), float(divisor)))
+def divide(left: int, divisor: float) -> int:
+    """DIV, to the nearest nanosecond. ZeroDivisionError; FaultError, also for NaN and infinity."""
+    return _sound(round(left / _fraction(divisor)), c_divide(pair(left), float(divisor)))
 
 
 def _sound(duration: int, span: Span) -> int:
     if pair(duration) != span:
-        raise FaultError(_REPRESENTATION)
+        raise FaultError(
+            "matiec's TIME arithmetic gives a value here that compares wrongly; count integer milliseconds"
+        )
     return duration
 
 

@@ -3,11 +3,10 @@
 import ast
 from collections.abc import Callable
 
-from structured_text.engines.embedded.certainty import known
 from structured_text.engines.embedded.integers import c_name
 from structured_text.engines.embedded.syntax import Pen
-from structured_text.engines.embedded.terms import CInteger, Whole, promoted
-from structured_text.language.types import Elementary, Subrange, Type, plain
+from structured_text.engines.embedded.terms import CInteger, Whole, elementary, promoted
+from structured_text.language.types import Subrange, Type
 
 
 class Widths:
@@ -27,8 +26,7 @@ class Widths:
 
     def stored(self, raw: Whole, target: Type) -> Whole:
         """The value for a store into `target`, a parameter included: C cuts there, and so does the standard."""
-        into = plain(target)
-        into = known(into, Elementary)
+        into = elementary(target)
         if into.width > raw.type.width:
             raw = self.exact(raw)
         if raw.c.signed and not raw.within(raw.c.low, raw.c.high):

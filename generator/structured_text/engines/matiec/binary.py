@@ -26,10 +26,9 @@ _TRAPS = {
 
 @dataclass
 class Binary:
-    """The shared library and the C functions in it, by name; `guard` is what runs its scans, if anything."""
+    """The shared library and the C functions in it, by name."""
 
     path: Path
-    guard: ctypes.c_void_p | None = None
     handle: ctypes.PyDLL = field(init=False)
 
     def __post_init__(self) -> None:
@@ -41,7 +40,6 @@ class Binary:
 
     def attach(self, guard: ctypes.c_void_p | None) -> None:
         """Let `guard` run the scans."""
-        self.guard = guard
         self.function("dbk_attach", ctypes.c_void_p)(guard)
 
     def function(self, name: str, *arguments: type[ctypes.c_void_p | ctypes.c_int64]) -> Callable[..., int]:

@@ -2,9 +2,9 @@
 
 from structured_text.language import tree
 from structured_text.language.grammar.cursor import Cursor, SyntaxProblem
-from structured_text.language.grammar.expressions import expression
-from structured_text.language.grammar.initial_values import initial_value
+from structured_text.language.grammar.expressions import expression, number
 from structured_text.language.lexer import END
+from structured_text.language.tree import Argument, ArrayInitial, Expression, Repeat, StructInitial
 
 VAR_KINDS = {kind.value: kind for kind in tree.VarKind if kind.value.startswith("VAR")}
 QUALIFIERS = frozenset(["CONSTANT", "RETAIN", "NON_RETAIN", "PERSISTENT", "PUBLIC", "PRIVATE", "PROTECTED", "INTERNAL"])
@@ -170,11 +170,11 @@ def _string_spec(cursor: Cursor) -> tree.Spec:
     cursor.i += 1
     bracket = cursor.kinds[cursor.i]
     if bracket not in ("[", "("):
-        return tree.StringSpec(at, wide, None, "")
+        return tree.StringSpec(at, wide, None)
     cursor.i += 1
     length = expression(cursor)
     cursor.expect("]" if bracket == "[" else ")")
-    return tree.StringSpec(at, wide, length, bracket)
+    return tree.StringSpec(at, wide, length)
 
 
 def _array_spec(cursor: Cursor) -> tree.Spec:
@@ -268,3 +268,59 @@ def _type_declaration(cursor: Cursor, number: int) -> tree.TypeDecl:
     made = tree.TypeDecl(at, cursor.end_of_last(), name, spec, initial, number, terminated)
     made.leading, made.trailing = leading, cursor.trailing()
     return made
+
+
+def initial_value(cursor: Cursor) -> Expression:
+    """What follows `:=` in a declaration: an expression, `[...]` or `(a := 1)`."""
+    kind = cursor.kinds[cursor.i]
+    cursor.operators = 0
+    if kind == "[":
+        return _array_initial(cursor)
+    if kind == "(" and cursor.kinds[cursor.i + 2] == ":=":
+        return _struct_initial(cursor)
+    return expression(cursor)
+
+
+def _array_initial(cursor: Cursor) -> ArrayInitial:
+    """`[1, 2(0), 3]`."""
+    at = cursor.ats[cursor.i]
+    cursor.i += 1
+    cursor.deeper()
+    items: list[Expression] = []
+    while cursor.kinds[cursor.i] != "]":
+        items.append(_array_item(cursor))
+        if not cursor.accept(","):
+            break
+    cursor.expect("]")
+    cursor.depth -= 1
+    return ArrayInitial(at, items)
+
+
+def _array_item(cursor: Cursor) -> Expression:
+    """An initial value, or `count(value)`."""
+    here = cursor.i
+    if cursor.kinds[here] != "number" or cursor.kinds[here + 1] != "(":
+        return initial_value(cursor)
+    count = number(cursor, "")
+    cursor.i += 1
+    value = None if cursor.kinds[cursor.i] == ")" else initial_value(cursor)
+    cursor.expect(")")
+    return Repeat(cursor.ats[here], count, value)
+
+
+def _struct_initial(cursor: Cursor) -> StructInitial:
+    """`(a := 1, b := [2, 3])`."""
+    at = cursor.ats[cursor.i]
+    cursor.i += 1
+    cursor.deeper()
+    items: list[Argument] = []
+    while True:
+        here = cursor.ats[cursor.i]
+        name = cursor.name("the name of a field")
+        cursor.expect(":=")
+        items.append(Argument(here, name, initial_value(cursor)))
+        if not cursor.accept(","):
+            break
+    cursor.expect(")")
+    cursor.depth -= 1
+    return StructInitial(at, items)
