@@ -1,4 +1,4 @@
-"""Maps of drives that are not shipped, from what their makers print: each is good, builds, lints and turns its motor."""
+"""Maps of drives that are not shipped, from what their makers print: each is good, builds, lints and turns a motor."""
 
 from collections.abc import Callable, Iterator
 from functools import cache
