@@ -55,6 +55,7 @@ def test_each_register_of_a_range_has_its_twin() -> None:
         assert (drive.stores > before) is stored
 
 
+@pytest.mark.thorough
 def test_blocks_of_a_map_with_twins_by_a_rule_are_clean() -> None:
     english = languages(["en"], "utf-8")
     files = [*library.generic(english), *library.drive("acme", loads(TWINS, "acme.yaml"), english)]

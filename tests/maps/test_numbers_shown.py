@@ -25,7 +25,11 @@ from driveblocks.render import library
 from driveblocks.render.text import languages
 from driveblocks.testing import access, parameter, register, request, standstill
 
-MAPS = ["mx2", "4xxxx", "hexadecimal"]
+MAPS = [
+    pytest.param("mx2", marks=pytest.mark.thorough),
+    "4xxxx",
+    pytest.param("hexadecimal", marks=pytest.mark.thorough),
+]
 TESTS = (access, parameter, register, request, standstill)
 _NUMBER = r"(?:[0-9A-F]{4}H|[1-9][0-9]{4,5})"
 _RUN = rf"{_NUMBER}(?:(?:-|, | and | or | to ){_NUMBER})*(?:\.[0-9A-F](?:-[0-9A-F])?)?"
@@ -92,7 +96,10 @@ def parameters(of: Drive, folder: Path) -> str:
     return file.read_text(encoding="utf-8")
 
 
-ROOMS = (shown, blocks, checks, simulated, explained, parameters)
+ROOMS = (
+    *(pytest.param(room, marks=pytest.mark.thorough) for room in (shown, blocks, checks)),
+    *(simulated, explained, parameters),
+)
 
 
 @pytest.mark.parametrize("name", MAPS)
