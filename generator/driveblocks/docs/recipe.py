@@ -14,7 +14,7 @@ from driveblocks.meaning import polls
 from driveblocks.meaning.pattern import Pattern
 from driveblocks.meaning.reference import reference
 from driveblocks.meaning.status import Sign, registers, status
-from driveblocks.meaning.watchdog import feeds, watchdog
+from driveblocks.meaning.watchdog import counts_at_rest, feeds, watchdog
 from driveblocks.meaning.words import Write, words
 from driveblocks.modbus.checksum import crc_bytes
 from driveblocks.render.environment import render
@@ -116,12 +116,16 @@ def _parts(drive: Drive, unit: int, full_scale_hz: float) -> Iterator[Part]:
     if shown.verify:
         yield Part("What the reference means", "Settings of the drive; with others the same word is another speed.",
                    tuple(_reads(drive, unit, shown.verify)), until=shown.verify)  # fmt: skip
+    for sign in shown.forbids:
+        yield Part("What forbids a start", f"No start while it is so: {sign.why}.",
+                   tuple(_reads(drive, unit, sign.patterns, "no start while")),
+                   until=tuple(each.other for each in sign.patterns))  # fmt: skip
     yield Part("Read", "From now on, all the time.", tuple(_status(drive, unit)), EVERY_MS)
     speed = _speed(drive, unit, full_scale_hz)
     yield Part(
         "Start", "Only while standstill is proved; the speed first.", (speed, *_writes(drive, unit, "run_forward"))
     )
-    last = list(_writes(drive, unit, "run_forward"))[-1:] if _feeds_by_run(drive) else []
+    last = list(_writes(drive, unit, "run_forward"))[-1:] if feeds(drive) == "run" else []
     yield Part("Keep it running", _fed(drive), (speed, *last), _period(drive))
     yield Part("Stop again", "As above: again until standstill is proved.",
                (*stop, *_reads(drive, unit, stands)), AGAIN_MS, stands)  # fmt: skip
@@ -166,11 +170,11 @@ def _scaled(drive: Drive, full_scale_hz: float) -> str:
     return f"; {float(known.ratio):g} for each hertz"
 
 
-def _reads(drive: Drive, unit: int, patterns: Sequence[Pattern]) -> Iterator[Request]:
+def _reads(drive: Drive, unit: int, patterns: Sequence[Pattern], says: str = "it has to be") -> Iterator[Request]:
     """One read for each register."""
     for register in registers(patterns):
         said = " and ".join(str(each) for each in patterns if each.register == register)
-        yield Request(read_request(unit, drive, Span(register, register)), register, f"it has to be {said}")
+        yield Request(read_request(unit, drive, Span(register, register)), register, f"{says} {said}")
 
 
 def _status(drive: Drive, unit: int) -> Iterator[Request]:
@@ -189,10 +193,6 @@ def _shown(sign: Sign, span: Span) -> str:
     return f"{sign.name.replace('_', ' ')} while {found}" if found else ""
 
 
-def _feeds_by_run(drive: Drive) -> bool:
-    return watchdog(drive) is not None and feeds(drive) == "run"
-
-
 def _period(drive: Drive) -> int:
     """A third of the shortest time of its watchdog, in ms, a second where it has none that is known."""
     own = watchdog(drive)
@@ -204,8 +204,11 @@ def _fed(drive: Drive) -> str:
     own = watchdog(drive)
     if own is None:
         return "The manual knows of no watchdog: what the drive does when the line is cut, it does not say."
-    by = {"read": "reads", "reference": "the speed", "run": "the run command", "any": "any request"}
-    said = f"Its watchdog is fed by {by[own.feeds]}." if own.feeds else "By what its watchdog is fed, nobody says."
+    by = {"polls": "any request" if own.feeds == "any" else "reads", "reference": "the speed", "run": "the run command"}
+    named = feeds(drive)
+    said = f"Its watchdog is fed by {by[named]}." if named else "By what its watchdog is fed, nobody says."
+    if counts_at_rest(drive):
+        said += " It counts at standstill, too: then send a speed of 0 as often."
     return said + (f" Set {own.time.setting} above three times the period." if own.time and own.time.setting else "")
 
 
