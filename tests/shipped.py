@@ -5,11 +5,11 @@ from functools import cache
 from pathlib import Path
 from typing import TypeVar
 
+from driveblocks.bench.unit import Unit
 from driveblocks.maps import catalog, collection
 from driveblocks.maps.model import Drive
 from driveblocks.output.units import units as tested
 from driveblocks.render.text import languages
-from driveblocks.testing.unit import Unit
 
 Row = TypeVar("Row")
 BOTH = languages(["en", "zh"], "utf-8")

@@ -9,8 +9,8 @@ from tests.rooms import ROOT, graph, room
 from driveblocks.maps import catalog
 
 ROOMS = (
-    "structured_text", "driveblocks", "console", "modbus", "maps", "meaning", "checked maps", "simulator", "reference",
-    "show", "render", "diff", "platforms", "docs", "testing", "prove", "output", "desk", "commands", "cli", "__main__",
+    "structured_text", "driveblocks", "console", "modbus", "maps", "meaning", "checked maps", "reference",
+    "show", "render", "diff", "platforms", "docs", "bench", "prove", "output", "desk", "commands", "cli", "__main__",
 )  # fmt: skip
 """From the bottom up; `driveblocks` is the package's own file, `structured_text` a package of its own."""
 FLOORS = ("structured_text", "visible", "files", "language", "findings", "engines", "cli", "__main__")

@@ -9,12 +9,12 @@ from typing import TypeVar
 
 from tests.bench.record import Rows
 
+from driveblocks.bench.suite import programs
 from driveblocks.docs.page import documents
 from driveblocks.maps import catalog, collection, load, nodes
 from driveblocks.maps.model import Drive
 from driveblocks.maps.page import skeleton
 from driveblocks.render import library, text
-from driveblocks.testing.suite import programs
 
 Made = TypeVar("Made")
 LANGUAGES = text.languages(["en", "zh"], "utf-8")

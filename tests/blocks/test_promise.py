@@ -12,15 +12,15 @@ import pytest
 from tests.maps import mutate
 from tests.shipped import BOTH
 
+from driveblocks.bench import runner
+from driveblocks.bench.suite import ROOT, drive_suite
+from driveblocks.bench.unit import Unit
 from driveblocks.docs.page import documents
 from driveblocks.maps import catalog, collection, page
 from driveblocks.maps.load import loads
 from driveblocks.maps.model import Drive
 from driveblocks.maps.problem import MapError
 from driveblocks.render import expression, library
-from driveblocks.testing import runner
-from driveblocks.testing.suite import ROOT, drive_suite
-from driveblocks.testing.unit import Unit
 from structured_text.engines.embedded.engine import EmbeddedEngine
 from structured_text.engines.engine import Source
 from structured_text.language.lint import lint_sources

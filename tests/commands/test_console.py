@@ -14,11 +14,11 @@ import pytest
 from rich.text import Text
 
 from driveblocks import cli, console
+from driveblocks.bench import runner
+from driveblocks.bench.outcome import Run
 from driveblocks.output import units
 from driveblocks.prove import archive
 from driveblocks.show.layout import card, heading, table
-from driveblocks.testing import runner
-from driveblocks.testing.outcome import Run
 from structured_text.visible import file_name, visible
 
 HOSTILE = "\x1b[31mred\x1b]0;t\x07\r\x08\x7f\x9b5m\u202eback\u2066\u200b\u2028\ufeff\U000e0041"

@@ -14,6 +14,7 @@ from tests.desk.run.windows import environment
 from tests.desk.simulate.test_peer import serving
 from tests.simulator.talk import MAPS
 
+from driveblocks.bench.simulator.drive import SimulatedDrive
 from driveblocks.cli import app
 from driveblocks.desk.bus import Bus
 from driveblocks.desk.keyboard import Keyboard
@@ -25,7 +26,6 @@ from driveblocks.desk.screen import Lines
 from driveblocks.desk.simulate.link import TcpLink
 from driveblocks.maps import catalog
 from driveblocks.maps.problem import Refused
-from driveblocks.simulator.drive import SimulatedDrive
 
 NET = 600
 """Seconds that no machine needs, for what would hang."""

@@ -10,12 +10,12 @@ from click.testing import CliRunner, Result
 from tests.shipped import BOTH
 from tests.testing.conftest import changed, only
 
+from driveblocks.bench.unit import Unit
 from driveblocks.cli import app
 from driveblocks.maps import collection
 from driveblocks.maps.page import skeleton
 from driveblocks.maps.view import UNPROVED
 from driveblocks.output import units as tested
-from driveblocks.testing.unit import Unit
 from structured_text.engines import discovery
 from structured_text.engines.embedded import EmbeddedEngine
 

@@ -9,10 +9,10 @@ import pytest
 import yaml
 from tests.simulator.talk import MAPS
 
+from driveblocks.bench.simulator.drive import SimulatedDrive
 from driveblocks.desk import scenario
 from driveblocks.desk.bus import Loss
 from driveblocks.maps.problem import MapError
-from driveblocks.simulator.drive import SimulatedDrive
 
 DRIVES = {1: MAPS["JSCC"], 2: MAPS["SN300G5"]}
 SCHEMA = Path(__file__).parents[2] / "docs" / "scenario.schema.json"

@@ -13,6 +13,7 @@ from tests.examples.port import Port
 from tests.shapes import shapes
 from tests.shipped import drives, sisters
 
+from driveblocks.bench.simulator.drive import SimulatedDrive
 from driveblocks.docs import timing
 from driveblocks.docs.page import Own, documents
 from driveblocks.maps import trust
@@ -23,7 +24,6 @@ from driveblocks.render.library import drive as library_of
 from driveblocks.render.library import generic
 from driveblocks.render.reasons import REASONS, STATES
 from driveblocks.render.text import languages
-from driveblocks.simulator.drive import SimulatedDrive
 from structured_text.engines.embedded.engine import EmbeddedEngine
 from structured_text.engines.engine import Engine, Instance, Source
 from structured_text.language.lint import lint_sources

@@ -15,11 +15,11 @@ from tests.line.vline import Config, Sent
 from tests.shipped import drives
 from tests.simulator.bench import DriveBench
 
+from driveblocks.bench.simulator.drive import SimulatedDrive
 from driveblocks.maps.form import is_bit, wire
 from driveblocks.maps.model import Drive
 from driveblocks.maps.revision import checked
 from driveblocks.meaning.polls import polls
-from driveblocks.simulator.drive import SimulatedDrive
 from structured_text.engines.embedded.engine import EmbeddedEngine
 from structured_text.engines.engine import Source
 

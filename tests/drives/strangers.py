@@ -9,8 +9,8 @@ from tests.second.line import Bench
 from tests.second.pf4 import VARIANTS
 from tests.second.station import FAMILIES, built
 
-from driveblocks.simulator.drive import SimulatedDrive
-from driveblocks.simulator.habits import Habits
+from driveblocks.bench.simulator.drive import SimulatedDrive
+from driveblocks.bench.simulator.habits import Habits
 from structured_text.engines.embedded.engine import EmbeddedEngine
 from structured_text.engines.engine import Library
 

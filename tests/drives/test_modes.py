@@ -7,7 +7,7 @@ from tests.drives.words import edge, meet, motions, sent, stops
 from tests.second.line import SETTINGS, Bench, Frame
 from tests.second.station import maps
 
-from driveblocks.simulator.drive import SimulatedDrive
+from driveblocks.bench.simulator.drive import SimulatedDrive
 from structured_text.engines.engine import Value
 
 

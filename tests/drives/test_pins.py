@@ -9,9 +9,9 @@ from tests.drives.words import sent
 from tests.second.line import OFF, Bench
 from tests.second.station import MADE_UP, MIXED, built, maps, simulated, texts
 
+from driveblocks.bench.simulator.habits import Habits
 from driveblocks.maps.revision import checked
 from driveblocks.render import library as blocks
-from driveblocks.simulator.habits import Habits
 from structured_text.engines.embedded.engine import EmbeddedEngine
 from structured_text.engines.engine import Engine, Library, Source
 from structured_text.language.checker import check

@@ -6,9 +6,9 @@ import pytest
 from tests.second.line import Bench
 from tests.second.station import built, maps
 
+from driveblocks.bench.simulator.drive import SimulatedDrive
+from driveblocks.bench.simulator.habits import Habits
 from driveblocks.render import context
-from driveblocks.simulator.drive import SimulatedDrive
-from driveblocks.simulator.habits import Habits
 from structured_text.engines.embedded.engine import EmbeddedEngine
 from structured_text.engines.engine import Library
 

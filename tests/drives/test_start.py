@@ -7,7 +7,7 @@ from tests.drives.words import edge, meet, motions, sent
 from tests.second.line import OFF, Bench
 from tests.second.station import MADE_UP
 
-from driveblocks.simulator.habits import Habits
+from driveblocks.bench.simulator.habits import Habits
 from structured_text.engines.engine import Value
 
 NAN, INFINITE = float("nan"), float("inf")

@@ -7,7 +7,7 @@ from tests.drives.words import sent, stops
 from tests.second.line import Bench
 from tests.second.station import MADE_UP
 
-from driveblocks.simulator.habits import Habits
+from driveblocks.bench.simulator.habits import Habits
 
 KINDS = ("CHF", *MADE_UP)
 

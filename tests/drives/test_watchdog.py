@@ -7,7 +7,7 @@ import pytest
 from tests.drives.words import motions, sent, stops
 from tests.second.line import OFF, Bench
 
-from driveblocks.simulator.habits import Habits
+from driveblocks.bench.simulator.habits import Habits
 
 TIME_MS = 600
 SLOW = Habits(ramp=5)

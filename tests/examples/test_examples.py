@@ -10,7 +10,7 @@ from tests.blocks.library import built, sources
 from tests.examples.port import Port
 from tests.shipped import drives
 
-from driveblocks.simulator.drive import SimulatedDrive
+from driveblocks.bench.simulator.drive import SimulatedDrive
 from structured_text.engines.engine import Engine, Source
 from structured_text.language.lint import lint_sources
 

@@ -7,16 +7,16 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner
 
+from driveblocks.bench.scenes import count, motor, others
+from driveblocks.bench.scenes.ability import Ability
+from driveblocks.bench.scenes.drive import premises, simulated
+from driveblocks.bench.scenes.scene import Scene, Step
+from driveblocks.bench.simulator.face import awaited
+from driveblocks.bench.simulator.habits import Habits
+from driveblocks.bench.simulator.machine import Machine
 from driveblocks.cli import app
 from driveblocks.maps.load import load, loads
 from driveblocks.maps.model import Drive
-from driveblocks.simulator.face import awaited
-from driveblocks.simulator.habits import Habits
-from driveblocks.simulator.machine import Machine
-from driveblocks.testing.scenes import count, motor, others
-from driveblocks.testing.scenes.ability import Ability
-from driveblocks.testing.scenes.drive import premises, simulated
-from driveblocks.testing.scenes.scene import Scene, Step
 
 FILES = {path.stem: path for path in sorted(Path(__file__).parent.glob("*.yaml"))}
 FULL_SPEED = {"abb_acs355": {0x0003: 0x0104}, "siemens_v20": {0x006D: 0x0104}, "danfoss_fc51": {0xC417: 0x0900}}

@@ -5,12 +5,12 @@ from pathlib import Path
 import pytest
 from tests.maps.test_base import BASE, write
 
+from driveblocks.bench.simulator.drive import SimulatedDrive
 from driveblocks.maps.load import load, loads
 from driveblocks.maps.problem import MapError
 from driveblocks.meaning.status import status
 from driveblocks.render import library
 from driveblocks.render.text import languages
-from driveblocks.simulator.drive import SimulatedDrive
 from structured_text.language.lint import lint_sources
 
 PARAMETERS = """  - id: parameters

@@ -10,6 +10,7 @@ import pytest
 from rich.console import Console, RenderableType
 from tests.maps.test_numbering import numbered, wrong
 
+from driveblocks.bench import access, parameter, register, request, standstill
 from driveblocks.commands import show
 from driveblocks.desk.explain import page, paste
 from driveblocks.desk.explain.explanation import Explainer
@@ -23,7 +24,6 @@ from driveblocks.maps.model import Drive
 from driveblocks.modbus.frame import seal
 from driveblocks.render import library
 from driveblocks.render.text import languages
-from driveblocks.testing import access, parameter, register, request, standstill
 
 MAPS = [
     pytest.param("mx2", marks=pytest.mark.thorough),

@@ -4,12 +4,12 @@ import re
 
 import pytest
 
+from driveblocks.bench import text as testing
 from driveblocks.maps import load, page
 from driveblocks.maps.model import Drive
 from driveblocks.maps.problem import MapError
 from driveblocks.render import library, text
 from driveblocks.render.text import languages
-from driveblocks.testing import text as testing
 
 BOTH = languages(["en", "zh"], "utf-8")
 NAMED = re.compile(r"\b(?:name: |title: \{en: |interface: \{en: )([^,}\n]+)")

@@ -4,15 +4,15 @@ import re
 
 from tests.rooms import ROOT
 
-ROOMS = ("render", "simulator", "prove", "testing", "docs", "desk", "platforms", "commands", "output")
+ROOMS = ("render", "prove", "bench", "docs", "desk", "platforms", "commands", "output")
 """`show`, `diff` and `counts` may read maps; `reference` stands apart, to say what is right."""
 RAW = re.compile(
     r"operation\.(commands|status|standstill|states|measures|reference|own_maximum|commanded_by)\b"
     r"|\bdrive\.(serial|watchdog|identity|settings)\b|\.scale\.(factor|when|otherwise|choices)\b"
 )
 SHOWN = {
-    "testing/register.py": "the scales of all rows, beside what the reference says they give",
-    "testing/scenes/told.py": "the stops of a map, for the reference to say their words",
+    "bench/register.py": "the scales of all rows, beside what the reference says they give",
+    "bench/scenes/told.py": "the stops of a map, for the reference to say their words",
 }
 
 

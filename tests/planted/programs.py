@@ -9,9 +9,9 @@ from tests.planted.verdict import ended
 from tests.shipped import BOTH
 from tests.testing.conftest import only, run
 
+from driveblocks.bench.unit import Unit
 from driveblocks.maps import catalog, collection
 from driveblocks.output.units import units
-from driveblocks.testing.unit import Unit
 
 
 def has(unit: Unit, name: str) -> bool:

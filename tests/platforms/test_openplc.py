@@ -12,8 +12,8 @@ from tests.examples.port import Port
 from tests.platforms.stock import canon, made, volumes
 from tests.shipped import drives
 
+from driveblocks.bench.simulator.drive import SimulatedDrive
 from driveblocks.platforms.openplc.writer import write
-from driveblocks.simulator.drive import SimulatedDrive
 from structured_text.engines.discovery import EMBEDDED
 from structured_text.engines.embedded.engine import EmbeddedEngine
 from structured_text.engines.engine import Engine, Library, Source

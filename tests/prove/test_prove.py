@@ -14,6 +14,7 @@ from tests.commands.test_page_commands import commands
 from tests.prove import agreement
 from tests.shapes import signs, texts, values
 
+from driveblocks.bench.outcome import Result
 from driveblocks.cli import app
 from driveblocks.maps import catalog, collection
 from driveblocks.maps.form import Span
@@ -22,7 +23,6 @@ from driveblocks.prove import archive, prover, report, rules
 from driveblocks.prove.facts import facts
 from driveblocks.prove.prover import Proved
 from driveblocks.prove.question import Verdict
-from driveblocks.testing.outcome import Result
 from structured_text.engines.embedded.engine import EmbeddedEngine
 from structured_text.engines.matiec.cache import Cache
 

@@ -15,8 +15,8 @@ from tests.second.observer import Figures, Pins
 from tests.second.station import IN_SEEN, RIVALS, SIZES, library, maps
 from tests.second.wire import Exchange
 
+from driveblocks.bench.simulator.drive import SimulatedDrive
 from driveblocks.maps.revision import checked
-from driveblocks.simulator.drive import SimulatedDrive
 from structured_text.engines.engine import Library, Value
 
 KIND = {"ATV312": "atv", "CHF": "chf", "GD200A": "gd", "JSCC": "jscc", "MX2": "mx", "PF4": "pf", "SN300G5": "sn"}

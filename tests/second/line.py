@@ -13,10 +13,10 @@ from random import Random
 from tests.line.vline import opened, sealed
 from tests.second.station import IN_SEEN, PINS, maps, name_of, simulated
 
+from driveblocks.bench.simulator.drive import SimulatedDrive
+from driveblocks.bench.simulator.habits import Habits
 from driveblocks.maps.revision import checked
 from driveblocks.render.reasons import REASONS
-from driveblocks.simulator.drive import SimulatedDrive
-from driveblocks.simulator.habits import Habits
 from structured_text.engines.engine import Library, Value
 
 REASON = {each.code: each.name for each in REASONS}

@@ -12,8 +12,8 @@ from tests.second.frames import rtu
 from tests.second.kinds import drive
 from tests.shipped import drives
 
-from driveblocks.simulator.drive import SimulatedDrive
-from driveblocks.simulator.habits import Habits
+from driveblocks.bench.simulator.drive import SimulatedDrive
+from driveblocks.bench.simulator.habits import Habits
 
 MAPS = drives()
 PREFIX = {

@@ -14,14 +14,14 @@ from random import Random
 from tests.line.many import Judged, arguments, judged, summary
 from tests.shapes import drawn
 
+from driveblocks.bench import runner
+from driveblocks.bench.unit import Unit
 from driveblocks.maps import model
 from driveblocks.maps.collection import Source
 from driveblocks.maps.load import loads
 from driveblocks.maps.problem import MapError
 from driveblocks.output.units import units
 from driveblocks.render.text import languages
-from driveblocks.testing import runner
-from driveblocks.testing.unit import Unit
 from structured_text.engines.embedded.engine import EmbeddedEngine
 from structured_text.language.lint import lint_sources
 

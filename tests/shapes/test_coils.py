@@ -8,6 +8,10 @@ from pathlib import Path
 import pytest
 from tests.maps import bad
 
+from driveblocks.bench import runner
+from driveblocks.bench.simulator.answer import answer
+from driveblocks.bench.simulator.machine import Machine
+from driveblocks.bench.unit import Unit
 from driveblocks.maps.collection import Source
 from driveblocks.maps.form import SPACES, address_text, span_text
 from driveblocks.maps.load import loads
@@ -16,10 +20,6 @@ from driveblocks.maps.problem import MapError
 from driveblocks.meaning.polls import polls
 from driveblocks.output.units import units
 from driveblocks.render.text import languages
-from driveblocks.simulator.answer import answer
-from driveblocks.simulator.machine import Machine
-from driveblocks.testing import runner
-from driveblocks.testing.unit import Unit
 from structured_text.engines.embedded.engine import EmbeddedEngine
 from structured_text.engines.engine import Engine
 from structured_text.language.lint import lint_sources

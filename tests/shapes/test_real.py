@@ -7,6 +7,8 @@ from pathlib import Path
 
 import pytest
 
+from driveblocks.bench import runner
+from driveblocks.bench.unit import Unit
 from driveblocks.maps import trust
 from driveblocks.maps.collection import Source
 from driveblocks.maps.load import load
@@ -14,8 +16,6 @@ from driveblocks.maps.model import Drive
 from driveblocks.output.units import units
 from driveblocks.render.drive import drive_block
 from driveblocks.render.text import languages
-from driveblocks.testing import runner
-from driveblocks.testing.unit import Unit
 from structured_text.engines.embedded.engine import EmbeddedEngine
 
 ADDRESSES: dict[str, dict[str | None, list[int]]] = {

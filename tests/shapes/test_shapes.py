@@ -10,6 +10,10 @@ import pytest
 from click.testing import CliRunner
 from tests.shapes import shapes, texts
 
+from driveblocks.bench import runner
+from driveblocks.bench.script import Suite
+from driveblocks.bench.simulator.drive import SimulatedDrive
+from driveblocks.bench.unit import Unit
 from driveblocks.cli import app
 from driveblocks.desk.site.register import spans
 from driveblocks.docs.page import documents
@@ -29,10 +33,6 @@ from driveblocks.render.drive import drive_block
 from driveblocks.render.library import drive as library_of
 from driveblocks.render.library import generic
 from driveblocks.render.text import languages
-from driveblocks.simulator.drive import SimulatedDrive
-from driveblocks.testing import runner
-from driveblocks.testing.script import Suite
-from driveblocks.testing.unit import Unit
 from structured_text.engines.embedded.engine import EmbeddedEngine
 from structured_text.language.lint import lint_sources
 

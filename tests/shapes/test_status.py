@@ -7,6 +7,13 @@ from pathlib import Path
 import pytest
 from tests.shapes import signs
 
+from driveblocks.bench import runner
+from driveblocks.bench.scenes.motor import POWER
+from driveblocks.bench.scenes.scene import Shows, Step, scene, script
+from driveblocks.bench.script import Program
+from driveblocks.bench.simulator.drive import SimulatedDrive
+from driveblocks.bench.simulator.habits import Habits
+from driveblocks.bench.unit import Unit
 from driveblocks.desk.run.look import _state
 from driveblocks.desk.scenario import _code
 from driveblocks.maps import check
@@ -22,13 +29,6 @@ from driveblocks.prove.facts import facts
 from driveblocks.reference import text
 from driveblocks.render.drive import drive_block
 from driveblocks.render.text import languages
-from driveblocks.simulator.drive import SimulatedDrive
-from driveblocks.simulator.habits import Habits
-from driveblocks.testing import runner
-from driveblocks.testing.scenes.motor import POWER
-from driveblocks.testing.scenes.scene import Shows, Step, scene, script
-from driveblocks.testing.script import Program
-from driveblocks.testing.unit import Unit
 from structured_text.engines.embedded.engine import EmbeddedEngine
 from structured_text.engines.engine import Value
 

@@ -11,6 +11,10 @@ from click.testing import CliRunner
 from tests.examples.port import Port
 from tests.shapes import values
 
+from driveblocks.bench import runner
+from driveblocks.bench.outcome import Result
+from driveblocks.bench.simulator.drive import SimulatedDrive
+from driveblocks.bench.unit import Unit
 from driveblocks.cli import app
 from driveblocks.desk.bus import Bus
 from driveblocks.desk.simulate.setup import view
@@ -24,10 +28,6 @@ from driveblocks.platforms.port import by_words
 from driveblocks.reference.command import Commands, Pins
 from driveblocks.reference.speed import SpeedReference
 from driveblocks.render.text import languages
-from driveblocks.simulator.drive import SimulatedDrive
-from driveblocks.testing import runner
-from driveblocks.testing.outcome import Result
-from driveblocks.testing.unit import Unit
 from structured_text.engines.embedded.engine import EmbeddedEngine
 from structured_text.engines.engine import Engine
 from structured_text.engines.engine import Source as Text

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 from tests.line.vline import POLL, STOP, Bench, Config, Drive
 
-from driveblocks.simulator.drive import SimulatedDrive
+from driveblocks.bench.simulator.drive import SimulatedDrive
 from structured_text.engines.engine import Instance
 
 

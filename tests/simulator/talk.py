@@ -5,12 +5,12 @@ from decimal import Decimal
 
 from tests.shipped import drives
 
+from driveblocks.bench.simulator.drive import SimulatedDrive
+from driveblocks.bench.simulator.habits import Habits
 from driveblocks.maps.form import Span
 from driveblocks.maps.model import Command, Drive, Frame, Step
 from driveblocks.maps.plan import read_request, write_request
 from driveblocks.modbus.layout import reply_size
-from driveblocks.simulator.drive import SimulatedDrive
-from driveblocks.simulator.habits import Habits
 
 MAPS = drives()
 

@@ -6,11 +6,11 @@ import pytest
 from tests.shipped import sisters
 from tests.simulator.talk import MAPS, talk
 
+from driveblocks.bench.simulator.drive import SimulatedDrive
+from driveblocks.bench.simulator.habits import Habits
+from driveblocks.bench.simulator.refusal import codes
 from driveblocks.maps import catalog
 from driveblocks.maps.load import load
-from driveblocks.simulator.drive import SimulatedDrive
-from driveblocks.simulator.habits import Habits
-from driveblocks.simulator.refusal import codes
 
 CODES = sisters({
     # read in the manuals' tables of error codes; JSCC's has no numbers, those of the standard stand beside it

@@ -6,11 +6,11 @@ import pytest
 from tests.shapes import shapes
 from tests.simulator.talk import MAPS
 
+from driveblocks.bench.simulator.face import Situation, situations
+from driveblocks.bench.simulator.habits import Habits
+from driveblocks.bench.simulator.table import table
 from driveblocks.maps.form import Span
 from driveblocks.maps.model import Condition, Drive, State, Status
-from driveblocks.simulator.face import Situation, situations
-from driveblocks.simulator.habits import Habits
-from driveblocks.simulator.table import table
 
 
 def holds(condition: Condition | State, words: dict[int, int]) -> bool:

@@ -4,8 +4,8 @@ import pytest
 from tests.shipped import sisters
 from tests.simulator.talk import MAPS, Talk, body, pairs, prepared, talk
 
+from driveblocks.bench.simulator.habits import Habits
 from driveblocks.maps.model import Frame
-from driveblocks.simulator.habits import Habits
 
 STATUS = sisters({
     "ATV312": 0x0C86, "MX2": 0x2000E, "SN300G5": 0x0010, "JSCC": 0x2001, "CHF": 0x1001, "GD200A": 0x2100, "PF4": 0x2100,

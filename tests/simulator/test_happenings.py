@@ -4,7 +4,7 @@ import pytest
 from tests.shapes import shapes
 from tests.simulator.talk import talk
 
-from driveblocks.simulator.habits import Habits
+from driveblocks.bench.simulator.habits import Habits
 
 
 def test_nobody_answers_without_power_and_the_motor_coasts() -> None:

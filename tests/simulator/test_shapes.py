@@ -7,8 +7,8 @@ import pytest
 from tests.shapes import shapes
 from tests.simulator.talk import MAPS, Talk, talk
 
+from driveblocks.bench.simulator.habits import Habits
 from driveblocks.maps.model import Drive
-from driveblocks.simulator.habits import Habits
 
 COMMAND, DIRECTION, RUN, STATUS, FREQUENCY = 0x1000, 0x1000, 0x1002, 0x2000, 0x2001
 READY, SWITCHED_ON, ENABLED, DISABLED, FAULT = 0x21, 0x23, 0x27, 0x40, 0x08

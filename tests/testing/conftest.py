@@ -8,11 +8,11 @@ from pathlib import Path
 import pytest
 from tests.shipped import BOTH
 
+from driveblocks.bench import harness, runner
+from driveblocks.bench.outcome import Run
+from driveblocks.bench.unit import Unit
 from driveblocks.maps import collection
 from driveblocks.output.units import units
-from driveblocks.testing import harness, runner
-from driveblocks.testing.outcome import Run
-from driveblocks.testing.unit import Unit
 from structured_text.engines.embedded import EmbeddedEngine
 from structured_text.engines.engine import Source
 

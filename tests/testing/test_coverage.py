@@ -5,9 +5,9 @@ from dataclasses import replace
 
 import pytest
 
-from driveblocks.testing import coverage, runner
-from driveblocks.testing.coverage import Coverage, Exemption, counting, result
-from driveblocks.testing.unit import Unit
+from driveblocks.bench import coverage, runner
+from driveblocks.bench.coverage import Coverage, Exemption, counting, result
+from driveblocks.bench.unit import Unit
 from structured_text.engines.coverage import Branches, Lines, Outcome
 from structured_text.engines.embedded import EmbeddedEngine, EmbeddedLibrary
 from structured_text.engines.engine import Engine, EngineError, Source

@@ -4,10 +4,10 @@ from dataclasses import replace
 
 import pytest
 
-from driveblocks.testing import execute, harness
-from driveblocks.testing.execute import Setting
-from driveblocks.testing.outcome import Outcome, Result
-from driveblocks.testing.script import Probe, Program, Script
+from driveblocks.bench import execute, harness
+from driveblocks.bench.execute import Setting
+from driveblocks.bench.outcome import Outcome, Result
+from driveblocks.bench.script import Probe, Program, Script
 from structured_text.engines.embedded import EmbeddedEngine
 from structured_text.engines.engine import Engine, Source
 

@@ -5,9 +5,9 @@ from xml.etree import ElementTree
 
 import pytest
 
-from driveblocks.testing import junit
-from driveblocks.testing.outcome import Outcome, Result, Run
-from driveblocks.testing.unit import Unit
+from driveblocks.bench import junit
+from driveblocks.bench.outcome import Outcome, Result, Run
+from driveblocks.bench.unit import Unit
 
 from .conftest import changed, only, run
 

@@ -1,7 +1,7 @@
 """What a program says of a wrong block: which check failed, where, what was expected and what was found."""
 
-from driveblocks.testing.outcome import Outcome
-from driveblocks.testing.unit import Unit
+from driveblocks.bench.outcome import Outcome
+from driveblocks.bench.unit import Unit
 
 from .conftest import changed, only, run
 

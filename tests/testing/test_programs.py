@@ -6,12 +6,12 @@ import pytest
 from tests import shipped
 from tests.shipped import BOTH
 
+from driveblocks.bench.harness import PER_SCAN
+from driveblocks.bench.script import MOST_STAGES, Program
+from driveblocks.bench.suite import programs
+from driveblocks.bench.unit import Unit
 from driveblocks.maps import collection
 from driveblocks.render.text import languages
-from driveblocks.testing.harness import PER_SCAN
-from driveblocks.testing.script import MOST_STAGES, Program
-from driveblocks.testing.suite import programs
-from driveblocks.testing.unit import Unit
 from structured_text.language.lint import lint_sources
 from structured_text.language.names import reserved
 
@@ -104,7 +104,7 @@ def test_chinese_is_expected_in_the_encoding_that_was_built() -> None:
 
 
 def test_what_is_expected_does_not_come_from_what_renders() -> None:
-    folder = ROOT / "generator/driveblocks/testing"
+    folder = ROOT / "generator/driveblocks/bench"
     users = {"unit.py", "code.py"}  # the library beside the programs that test it, and the words of their comments
     for path in sorted(folder.glob("*.py")):
         imports = re.findall(r"^\s*(?:from|import) (driveblocks\.\S+)", path.read_text("utf-8"), re.MULTILINE)

@@ -11,13 +11,13 @@ from typing import NoReturn
 import pytest
 from tests.shipped import BOTH
 
+from driveblocks.bench import page, runner
+from driveblocks.bench.outcome import Outcome, Run
+from driveblocks.bench.unit import Unit
 from driveblocks.maps import collection
 from driveblocks.maps.page import skeleton
 from driveblocks.maps.view import UNPROVED
 from driveblocks.output.units import units
-from driveblocks.testing import page, runner
-from driveblocks.testing.outcome import Outcome, Run
-from driveblocks.testing.unit import Unit
 from structured_text.engines.embedded import EmbeddedEngine
 from structured_text.engines.engine import Engine, EngineError, Library, Source
 

@@ -8,12 +8,12 @@ import pytest
 from tests import shipped
 from tests.shapes import shapes
 
+from driveblocks.bench.scenes.reason import REASONS
+from driveblocks.bench.scenes.scene import RULES
+from driveblocks.bench.unit import Unit
 from driveblocks.maps import collection
 from driveblocks.output.units import units
 from driveblocks.render.text import languages
-from driveblocks.testing.scenes.reason import REASONS
-from driveblocks.testing.scenes.scene import RULES
-from driveblocks.testing.unit import Unit
 from structured_text.engines.embedded import EmbeddedEngine
 from structured_text.engines.engine import Library, Source
 

@@ -11,13 +11,13 @@ import pytest
 from tests import shipped
 from tests.blocks.library import BLOCKS
 
+from driveblocks.bench import runner
+from driveblocks.bench.coverage import Coverage, exemptions
+from driveblocks.bench.outcome import Run
+from driveblocks.bench.scenes.reason import REASONS
+from driveblocks.bench.unit import Unit
 from driveblocks.maps import collection
 from driveblocks.output.units import units
-from driveblocks.testing import runner
-from driveblocks.testing.coverage import Coverage, exemptions
-from driveblocks.testing.outcome import Run
-from driveblocks.testing.scenes.reason import REASONS
-from driveblocks.testing.unit import Unit
 from structured_text.engines.embedded import EmbeddedEngine, EmbeddedInstance, EmbeddedLibrary
 from structured_text.engines.engine import Value
 

@@ -12,7 +12,7 @@ from driveblocks import console
 from driveblocks.commands import JUNIT, MAPS, refuse, sources, write
 
 if TYPE_CHECKING:
-    from driveblocks.testing.outcome import Result
+    from driveblocks.bench.outcome import Result
 
 SHOWN = 5
 """Counterexamples that are printed whole; all are in the XML, if one is asked for."""
@@ -34,10 +34,10 @@ def run(maps: tuple[str, ...], junit: Path | None, rules: bool) -> None:
     """
     if find_spec("z3") is None:
         refuse("the solver is missing: pip install 'driveblocks[prove]'")
+    from driveblocks.bench import junit as xml
+    from driveblocks.bench.outcome import Run
     from driveblocks.prove import archive
     from driveblocks.prove.sorts import UnsupportedError
-    from driveblocks.testing import junit as xml
-    from driveblocks.testing.outcome import Run
     from structured_text.language.problems import SourceError
 
     done: list[Result] = []

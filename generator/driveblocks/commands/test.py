@@ -14,10 +14,10 @@ from driveblocks.commands import FILE, JUNIT, MAPS, refuse, sources, write
 from structured_text import files
 
 if TYPE_CHECKING:
+    from driveblocks.bench.coverage import Coverage
+    from driveblocks.bench.outcome import Result, Run
     from driveblocks.maps.collection import Source
     from driveblocks.render.text import Language
-    from driveblocks.testing.coverage import Coverage
-    from driveblocks.testing.outcome import Result, Run
     from structured_text.engines.discovery import Candidate
 
 SHOWN, PER_PROGRAM = 20, 3
@@ -70,12 +70,12 @@ def run(  # noqa: PLR0913, PLR0917 - one parameter per option of the command lin
 
     Example: driveblocks test my_drive.yaml --engine all --require-coverage 85
     """
+    from driveblocks.bench import junit as xml
+    from driveblocks.bench import runner
+    from driveblocks.bench.coverage import Coverage, counting, result
+    from driveblocks.bench.outcome import Run
     from driveblocks.output.units import units
     from driveblocks.render.text import languages
-    from driveblocks.testing import junit as xml
-    from driveblocks.testing import runner
-    from driveblocks.testing.coverage import Coverage, counting, result
-    from driveblocks.testing.outcome import Run
 
     candidates, chosen = _engines(engine)
     read = sources(maps)
@@ -105,7 +105,7 @@ def run(  # noqa: PLR0913, PLR0917 - one parameter per option of the command lin
 
 def _keep(folder: Path, read: "list[Source]", both: "list[Language]") -> None:
     """Write the programs into a new folder. Ends with status 2 where something is there, or it cannot be written."""
-    from driveblocks.testing.suite import programs
+    from driveblocks.bench.suite import programs
 
     try:
         folder.mkdir(parents=True, exist_ok=True)
@@ -167,7 +167,7 @@ def _unproved(sources: "list[Source]") -> None:
 
 def _premises(sources: "list[Source]") -> None:
     """Name what scenes suppose of a drive and a map says otherwise: they fail for that reason."""
-    from driveblocks.testing.scenes.drive import premises
+    from driveblocks.bench.scenes.drive import premises
 
     for source in sources:
         for told in premises(source.drive):
@@ -178,8 +178,8 @@ def _premises(sources: "list[Source]") -> None:
 
 def _draw(run: "Run", folder: Path) -> None:
     """A picture per program and engine whose scene failed. Ends with status 2 where one cannot be written."""
+    from driveblocks.bench import record
     from driveblocks.desk.words import spare
-    from driveblocks.testing import record
 
     results = {folder / f"{result.program}-{result.engine}.svg": result for result in run.results if result.record}
     for path, result in results.items():
@@ -229,7 +229,7 @@ def _say(run: "Run", drives: int, junit: Path | None) -> None:
     """The failures, each first scene that failed with its pins and frames, then the sum of it all."""
     from textwrap import indent
 
-    from driveblocks.testing import record
+    from driveblocks.bench import record
 
     shown = 0
     for result in run.results:

@@ -8,8 +8,8 @@ from collections import defaultdict, deque
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 
+from driveblocks.bench.simulator.drive import SimulatedDrive
 from driveblocks.modbus import frame, layout
-from driveblocks.simulator.drive import SimulatedDrive
 
 MOST_FRAMES = 1000
 """Frames that wait to be written down; older ones are forgotten."""

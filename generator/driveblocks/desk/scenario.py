@@ -7,14 +7,14 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from driveblocks.bench.simulator.drive import SimulatedDrive
+from driveblocks.bench.simulator.habits import Habits
 from driveblocks.desk.bus import Loss
 from driveblocks.desk.script import duration_us
 from driveblocks.maps import nodes, source
 from driveblocks.maps.model import Drive
 from driveblocks.maps.nodes import Entries, Items, Node, Scalar
 from driveblocks.maps.problem import MapError, Problem, Report
-from driveblocks.simulator.drive import SimulatedDrive
-from driveblocks.simulator.habits import Habits
 
 TIME = r"[0-9]{1,12}(\.[0-9]{1,12})? ?(ms|s|min)"
 UNIT = r"( (?P<unit>[1-9][0-9]{0,2}))?"

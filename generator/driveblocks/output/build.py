@@ -57,7 +57,7 @@ def files(
 
 
 def _tests(sources: list[Source], languages: list[Language]) -> dict[str, str]:
-    from driveblocks.testing.suite import programs  # which other targets do not need
+    from driveblocks.bench.suite import programs  # which other targets do not need
 
     return programs(sources, languages)
 

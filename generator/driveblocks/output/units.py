@@ -2,12 +2,12 @@
 
 from collections.abc import Iterator, Sequence
 
+from driveblocks.bench.suite import drive_suite, shared_suite
+from driveblocks.bench.unit import Unit
 from driveblocks.maps.collection import Source
 from driveblocks.platforms import CANONICAL
 from driveblocks.render import library
 from driveblocks.render.text import Language
-from driveblocks.testing.suite import drive_suite, shared_suite
-from driveblocks.testing.unit import Unit
 from structured_text.engines.engine import Source as Text
 
 OTHERS = tuple(

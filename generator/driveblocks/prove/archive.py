@@ -11,11 +11,11 @@ from typing import Any
 
 import z3
 
+from driveblocks.bench.outcome import Outcome, Result
+from driveblocks.bench.runner import Tell
 from driveblocks.maps.collection import Source
 from driveblocks.prove import prover, report, rules
 from driveblocks.prove.facts import facts
-from driveblocks.testing.outcome import Outcome, Result
-from driveblocks.testing.runner import Tell
 from structured_text import files
 from structured_text.engines.engine import EngineError
 from structured_text.engines.engine import Source as Text

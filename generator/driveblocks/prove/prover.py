@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 
 import z3
 
+from driveblocks.bench.runner import Tell
 from driveblocks.maps.collection import Source
 from driveblocks.prove import rules
 from driveblocks.prove.example import Values, least
@@ -16,7 +17,6 @@ from driveblocks.prove.replay import Call, Replay
 from driveblocks.prove.rules import Subject
 from driveblocks.render import library
 from driveblocks.render.text import languages
-from driveblocks.testing.runner import Tell
 from structured_text.engines.engine import Source as Text
 
 GENERIC = "every drive"

@@ -3,11 +3,11 @@
 import re
 from collections.abc import Iterator
 
+from driveblocks.bench.outcome import ERROR, FAILED, PASSED, Outcome, Result
 from driveblocks.prove.model import BEFORE
 from driveblocks.prove.prover import Proof, Proved
 from driveblocks.prove.question import CALLS, Verdict
 from driveblocks.prove.replay import Call
-from driveblocks.testing.outcome import ERROR, FAILED, PASSED, Outcome, Result
 from structured_text.engines.engine import Value
 from structured_text.language.tree import VarKind
 

@@ -6,6 +6,7 @@ from pathlib import Path
 
 from tests.simulator.talk import MAPS
 
+from driveblocks.bench.simulator.drive import SimulatedDrive
 from driveblocks.desk.bus import Bus
 from driveblocks.desk.clock import VirtualClock
 from driveblocks.desk.ending import Ending
@@ -16,7 +17,6 @@ from driveblocks.desk.run.session import Session
 from driveblocks.desk.run.watchdog import Watchdog
 from driveblocks.maps import catalog
 from driveblocks.maps.collection import Source
-from driveblocks.simulator.drive import SimulatedDrive
 
 EXAMPLE = Path(__file__).parents[3] / "examples" / "three_makes.st"
 SCAN_US = 10_000

@@ -8,11 +8,11 @@ import pytest
 from tests.desk.run.desk import EXAMPLE, ONE, Desk
 from tests.simulator.talk import MAPS
 
+from driveblocks.bench.simulator.drive import SimulatedDrive
 from driveblocks.desk.bus import Bus
 from driveblocks.desk.port import WirePort
 from driveblocks.desk.run.session import Result
 from driveblocks.desk.script import Setting
-from driveblocks.simulator.drive import SimulatedDrive
 
 SECOND = 1_000_000
 SLOW = ONE.replace("(ReferenceScale", "(StaleMs := 20000, ReferenceScale")

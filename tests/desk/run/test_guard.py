@@ -5,12 +5,12 @@ from tests.desk.run.desk import EXAMPLE, ONE, Desk
 from tests.maps import bad
 from tests.simulator.talk import MAPS
 
+from driveblocks.bench.simulator.drive import SimulatedDrive
 from driveblocks.desk.run.guard import Guard, stop_request, stops
 from driveblocks.maps import load
 from driveblocks.maps.model import Drive
 from driveblocks.meaning.words import STOPS
 from driveblocks.modbus.frame import seal
-from driveblocks.simulator.drive import SimulatedDrive
 
 UNITS: dict[int, Drive] = {1: MAPS["SN300G5"], 2: MAPS["JSCC"], 3: MAPS["CHF"]}
 

@@ -7,6 +7,7 @@ import pytest
 from tests.desk.run.desk import Desk
 from tests.simulator.talk import MAPS
 
+from driveblocks.bench.simulator.drive import SimulatedDrive
 from driveblocks.desk import scenario
 from driveblocks.desk.bus import Loss
 from driveblocks.desk.run.drives import Named
@@ -14,7 +15,6 @@ from driveblocks.desk.run.play import Play
 from driveblocks.desk.run.simulated import Simulation
 from driveblocks.maps import catalog
 from driveblocks.modbus.frame import seal
-from driveblocks.simulator.drive import SimulatedDrive
 
 NET = 600
 """Seconds that no machine needs, for what would hang."""

@@ -9,6 +9,8 @@ from tests.desk.run.desk import BOX, EXAMPLE, ONE, SCAN_US, Desk, Line
 from tests.maps import bad
 from tests.simulator.talk import MAPS
 
+from driveblocks.bench.simulator.drive import SimulatedDrive
+from driveblocks.bench.simulator.habits import Habits
 from driveblocks.desk import ending
 from driveblocks.desk.bus import Bus
 from driveblocks.desk.clock import VirtualClock
@@ -20,8 +22,6 @@ from driveblocks.desk.run.pace import Pace
 from driveblocks.desk.run.stopper import Stop, Stopper
 from driveblocks.desk.script import Setting
 from driveblocks.maps import load
-from driveblocks.simulator.drive import SimulatedDrive
-from driveblocks.simulator.habits import Habits
 
 SECOND = 1_000_000
 

@@ -17,13 +17,13 @@ from tests.blocks.library import BLOCKS
 from tests.blocks.toolchains import COMPILER, FOUND, run, translate
 from tests.simulator.talk import MAPS
 
+from driveblocks.bench.simulator.drive import SimulatedDrive
+from driveblocks.bench.simulator.habits import Habits
 from driveblocks.desk.bus import Bus
 from driveblocks.desk.clock import RealClock
 from driveblocks.desk.ending import Ending
 from driveblocks.desk.simulate.link import PtyLink
 from driveblocks.desk.simulate.setup import Stand
-from driveblocks.simulator.drive import SimulatedDrive
-from driveblocks.simulator.habits import Habits
 from structured_text.engines.matiec.installation import Installation
 
 HERE = Path(__file__).parent

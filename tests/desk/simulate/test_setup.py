@@ -10,6 +10,7 @@ from click.testing import CliRunner
 from tests.desk.run.windows import environment
 from tests.simulator.talk import MAPS, pairs, prepared
 
+from driveblocks.bench.simulator.drive import SimulatedDrive
 from driveblocks.cli import app
 from driveblocks.desk.bus import Bus, Frame
 from driveblocks.desk.clock import VirtualClock
@@ -17,7 +18,6 @@ from driveblocks.desk.explain.trace import Tracer
 from driveblocks.desk.simulate.link import WithoutEcho
 from driveblocks.desk.simulate.neighbour import LISTEN_US, Neighbours
 from driveblocks.modbus.frame import Mode, seal
-from driveblocks.simulator.drive import SimulatedDrive
 
 
 def said(*words: str, status: int = 0) -> str:

@@ -13,6 +13,7 @@ from click.testing import CliRunner
 from tests.desk.run.desk import maps
 from tests.shapes import shapes
 
+from driveblocks.bench.simulator.drive import SimulatedDrive
 from driveblocks.cli import app
 from driveblocks.desk.bus import Bus
 from driveblocks.desk.clock import VirtualClock
@@ -26,7 +27,6 @@ from driveblocks.maps.model import Condition, Identity
 from driveblocks.maps.problem import MapError
 from driveblocks.meaning.polls import polls
 from driveblocks.modbus.frame import opened, seal
-from driveblocks.simulator.drive import SimulatedDrive
 from structured_text import files
 
 MAPS = {each.path.stem: each.drive for each in maps()}

@@ -8,6 +8,8 @@ from pathlib import Path
 import pytest
 from tests.desk.run.desk import BOX, maps
 
+from driveblocks.bench.simulator.drive import SimulatedDrive
+from driveblocks.bench.simulator.habits import Habits
 from driveblocks.desk.bus import Bus
 from driveblocks.desk.clock import VirtualClock
 from driveblocks.desk.port import WirePort
@@ -16,8 +18,6 @@ from driveblocks.desk.run.controller import Controller
 from driveblocks.desk.site import asked
 from driveblocks.desk.site.line import Line, figures
 from driveblocks.meaning.polls import polls
-from driveblocks.simulator.drive import SimulatedDrive
-from driveblocks.simulator.habits import Habits
 
 PAGE = Path(__file__).parents[3] / "docs" / "stop.md"
 MAPS = {each.drive.prefix: each.drive for each in maps()}

@@ -16,6 +16,7 @@ import pytest
 from click.testing import CliRunner, Result
 from tests.desk.run.desk import maps
 
+from driveblocks.bench.simulator.drive import SimulatedDrive
 from driveblocks.cli import app
 from driveblocks.desk.bus import Bus
 from driveblocks.desk.clock import VirtualClock
@@ -28,7 +29,6 @@ from driveblocks.desk.site.saved import Word
 from driveblocks.maps.load import load
 from driveblocks.maps.problem import Refused
 from driveblocks.modbus.frame import seal
-from driveblocks.simulator.drive import SimulatedDrive
 
 MAPS = {each.drive.prefix: (each.path.stem, each.drive) for each in maps()}
 SKELETON = Path(__file__).parents[2] / "maps" / "example.yaml"

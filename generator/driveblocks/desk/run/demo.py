@@ -5,9 +5,9 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 import driveblocks
+from driveblocks.bench.simulator.drive import SimulatedDrive
 from driveblocks.desk.run.drives import COUNTS_PER_HERTZ, PER_COUNT
 from driveblocks.desk.run.session import Session
-from driveblocks.simulator.drive import SimulatedDrive
 from structured_text.engines.engine import Value
 
 PROGRAM = "three_makes.st"

@@ -10,14 +10,14 @@ from dataclasses import dataclass
 from decimal import Decimal
 from pathlib import Path
 
+from driveblocks.bench.simulator.drive import SimulatedDrive
+from driveblocks.bench.simulator.habits import Habits
 from driveblocks.desk.run.controller import Controller
 from driveblocks.maps.collection import Source
 from driveblocks.maps.model import Drive
 from driveblocks.maps.problem import Refused
 from driveblocks.meaning.measure import PINS, measures
 from driveblocks.meaning.reference import reference
-from driveblocks.simulator.drive import SimulatedDrive
-from driveblocks.simulator.habits import Habits
 
 HIGHEST_UNIT = 247
 FACTORY_HZ, HIGHEST_HZ = 50, 600

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from driveblocks import console
+from driveblocks.bench.simulator.drive import SimulatedDrive
 from driveblocks.desk import scenario
 from driveblocks.desk.bus import Bus
 from driveblocks.desk.clock import Clock, RealClock
@@ -25,7 +26,6 @@ from driveblocks.maps.load import named as map_of
 from driveblocks.maps.model import Drive
 from driveblocks.maps.problem import Refused
 from driveblocks.meaning.serial import character, delivered
-from driveblocks.simulator.drive import SimulatedDrive
 
 LOOK_US = 200_000
 """Between two looks for the screen."""

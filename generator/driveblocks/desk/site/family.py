@@ -5,6 +5,7 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Literal
 
+from driveblocks.bench.simulator.refusal import codes
 from driveblocks.desk.master import Master, Reply
 from driveblocks.desk.site.register import rows
 from driveblocks.maps.form import Span, address_text
@@ -12,7 +13,6 @@ from driveblocks.maps.model import Drive
 from driveblocks.maps.plan import dialect, plan, read_request
 from driveblocks.meaning.polls import Poll, identity_read, polls
 from driveblocks.meaning.status import status
-from driveblocks.simulator.refusal import codes
 
 SETTINGS = 5
 """Parameters that are tried."""

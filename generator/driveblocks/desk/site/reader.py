@@ -4,6 +4,7 @@ from collections import Counter
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 
+from driveblocks.bench.simulator.refusal import codes
 from driveblocks.desk.clock import Clock
 from driveblocks.desk.exchange import LATE_US, Exchanges, quality
 from driveblocks.desk.master import REPEAT_US, Master, Speech
@@ -18,7 +19,6 @@ from driveblocks.maps.pair import whole
 from driveblocks.maps.plan import most, read_request
 from driveblocks.meaning.polls import identity_read, polls
 from driveblocks.meaning.serial import serial
-from driveblocks.simulator.refusal import codes
 
 PAUSE_US = 500_000
 LISTEN_US = 1_000_000

@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass, replace
 
+from driveblocks.bench.simulator.refusal import codes
 from driveblocks.desk.exchange import LATE_US, Said
 from driveblocks.desk.master import Reply
 from driveblocks.desk.site.found import Fault, Line, Trouble, Way
@@ -9,7 +10,6 @@ from driveblocks.maps.form import Span
 from driveblocks.maps.model import Drive
 from driveblocks.maps.plan import read_request
 from driveblocks.meaning.serial import serial
-from driveblocks.simulator.refusal import codes
 
 LOOK = {
     "silent": "drive switched on? A and B swapped? its keypad: address, bit rate, format, RTU or ASCII",
