@@ -55,7 +55,7 @@ def test_json_has_each_drive_whole_with_file_and_counts(shelf: Path) -> None:
 
 
 def test_a_bad_map_is_left_out_and_reported(shelf: Path) -> None:
-    (shelf / "bad.yaml").write_text("format: 2\n", encoding="utf-8")
+    (shelf / "bad.yaml").write_text("format: 3\n", encoding="utf-8")
     result = CliRunner().invoke(app, ["list", "--json"])
     assert result.exit_code == 2
     assert [drive["drive"] for drive in json.loads(result.stdout)] == ["example"]
@@ -103,7 +103,7 @@ def test_a_page_that_cannot_be_written_is_refused(shelf: Path, text: str | None)
 
 
 def test_counts_of_a_bad_map_are_refused(shelf: Path) -> None:
-    (shelf / "bad.yaml").write_text("format: 2\n", encoding="utf-8")
+    (shelf / "bad.yaml").write_text("format: 3\n", encoding="utf-8")
     result = CliRunner().invoke(app, ["counts"])
     assert result.exit_code == 2
     assert "bad.yaml:1:9: " in result.stderr

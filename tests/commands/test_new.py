@@ -22,7 +22,7 @@ def _here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 
 def on_the_page() -> str:
     """The map as it is on the page."""
-    (block,) = [part for part in GUIDE.read_text(encoding="utf-8").split("```yaml\n")[1:] if "format: 2" in part]
+    (block,) = [part for part in GUIDE.read_text(encoding="utf-8").split("```yaml\n")[1:] if "prefix: ACME" in part]
     return block.partition("```")[0]
 
 
