@@ -101,6 +101,7 @@ def test_a_sign_says_no_direction_at_0() -> None:
     assert told["sign"].says["reverse"] == ["(WORD_TO_INT(Reads.OutputFrequencyWord) < 0)"]
     known = {name: one.knows_direction for name, one in told.items()}
     assert known.pop("sign") == "(Reads.OutputFrequencyWord <> WORD#16#0000)"
+    assert known.pop("elsewhere") == "Reads.DirectionRead"
     assert known == dict.fromkeys(known, "FALSE") | {"two_bits": "TRUE"}
 
 

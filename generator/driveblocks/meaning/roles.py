@@ -21,6 +21,8 @@ class Roles:
     speed: Numbers
     """... the frequency among it; where it has none, all of it."""
     running: Numbers
+    direction: Numbers
+    """... which way it turns, where what says that it runs does not bring that."""
     state: Numbers
     by_bus: Numbers
     fault: Numbers
@@ -47,7 +49,8 @@ def roles(drive: Drive) -> Roles:
         fast=tuple(number for number, one in enumerate(reads, 1) if one.fast),
         proof=those(registers(shows.standstill.patterns)),
         speed=those(speed_words(drive)),
-        running=those(registers(shows.shows("running"))),
+        running=(running := those(registers(shows.shows("running")))),
+        direction=tuple(each for each in those(registers(shows.shows("reverse"))) if each not in running),
         state=those(registers(each.pattern for each in shows.states)),
         by_bus=those(registers(shows.by_bus.patterns)),
         fault=those((*registers(shows.shows("fault")), *fault_words(drive))),

@@ -307,7 +307,8 @@ def _knows_direction(drive: Drive) -> str:
     signs = status(drive).shows("reverse")
     numbers = registers(each for each in signs if each.is_ in ("<", ">"))
     moves = [f"(Reads.{word_input(drive, each).name} <> WORD#16#0000)" for each in numbers]
-    return " AND ".join(moves) or str(bool(signs)).upper()
+    later = ["Reads.DirectionRead"] if roles(drive).direction else []
+    return " AND ".join([*later, *moves]) or str(bool(signs)).upper()
 
 
 def _running_first(one: Sign) -> bool:
