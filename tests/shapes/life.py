@@ -7,17 +7,20 @@ is not judged again. `--lies` gives each another fact than its block has, which 
 import sys
 from collections import Counter
 from collections.abc import Sequence
-from dataclasses import fields, is_dataclass, replace
+from dataclasses import fields, replace
 from pathlib import Path
 from random import Random
+from tempfile import TemporaryDirectory
 
 from tests.line.many import Judged, arguments, judged, summary
 from tests.shapes import drawn
+from tests.shapes.sheet import Row, moved
 
 from driveblocks.maps import model
 from driveblocks.maps.collection import Source
-from driveblocks.maps.load import loads
+from driveblocks.maps.load import load, loads
 from driveblocks.maps.problem import MapError
+from driveblocks.maps.shape import keys_of
 from driveblocks.output.units import units
 from driveblocks.render.text import languages
 from driveblocks.testing import runner
@@ -29,12 +32,23 @@ BATCH = 5
 """Maps that are compiled together."""
 EACH = 20
 """So many of them have each key of the format."""
+SISTERS = 13
+"""So many apart are the maps that have a base."""
 ENGLISH = languages(["en"], "utf-8")
 
 
 def made(seeds: Sequence[int]) -> list[Source]:
-    """Their maps, as `check` reads them. Raises MapError."""
-    return [Source(Path(f"d{seed}.yaml"), loads(drawn.text(seed), f"d{seed}.yaml")) for seed in seeds]
+    """Their maps, as `check` reads them; some are sisters, with the drawn map as their base. Raises MapError."""
+    return [_sister(seed) if seed % SISTERS == 0 else Source(Path(f"d{seed}.yaml"), loads(
+        drawn.text(seed), f"d{seed}.yaml")) for seed in seeds]  # fmt: skip
+
+
+def _sister(seed: int) -> Source:
+    with TemporaryDirectory() as folder:
+        base, own = Path(folder) / f"d{seed}.yaml", Path(folder) / f"s{seed}.yaml"
+        base.write_text(drawn.text(seed), encoding="utf-8")
+        own.write_text(drawn.written(drawn.sister(seed, base.stem)), encoding="utf-8")
+        return Source(Path(own.name), load(own))
 
 
 def judge(name: str) -> Judged:
@@ -67,12 +81,18 @@ def keys(part: object) -> set[str]:
     found: set[str] = set()
     if isinstance(part, tuple):
         return found.union(*map(keys, part))
-    if is_dataclass(part) and type(part).__module__ == model.__name__:
-        for each in fields(part):
-            value = getattr(part, each.name)
-            if value not in (None, (), "", False):
-                found |= {f"{type(part).__name__}.{each.name}"} | keys(value)
+    for each in fields(part) if isinstance(part, model.Entry) else ():
+        value = getattr(part, each.name)
+        if "doc" in each.metadata and value != each.default:
+            found |= {f"{type(part).__name__}.{each.name}"} | keys(value)
     return found
+
+
+def format_keys() -> set[str]:
+    """Those of the format."""
+    kinds: list[type] = [one for one in vars(model).values() if isinstance(one, type) and issubclass(one, model.Entry)]
+    used = [kind for kind in kinds if kind not in (model.Entry, model.Named, model.Returned, model.Choice)]
+    return {f"{kind.__name__}.{name}" for kind in used for name in keys_of(kind)}
 
 
 # ---------------------------------------------------------------- lies
@@ -81,7 +101,7 @@ def keys(part: object) -> set[str]:
 def lie(name: str) -> Judged:
     """Judge one whose simulated drive is another than the map of its block says."""
     out, seed = Judged(name), int(name)
-    (true,) = made([seed])
+    true = Source(Path(f"d{seed}.yaml"), loads(drawn.text(seed), f"d{seed}.yaml"))
     rows, told = _another(drawn.draw(seed), Random(f"lie {seed}"))
     try:
         false = Source(true.path, loads(drawn.written(rows), "lie.yaml"))
@@ -94,16 +114,16 @@ def lie(name: str) -> Judged:
     return out
 
 
-def _another(rows: drawn.Row, chance: Random) -> tuple[drawn.Row, str]:
+def _another(rows: Row, chance: Random) -> tuple[Row, str]:
     """One fact is another: the word of a command, the present fault, a scale."""
     return chance.choice((_command, _fault, _reference, _frequency))(rows)
 
 
-def _rows(rows: drawn.Row, address: object) -> list[drawn.Row]:
+def _rows(rows: Row, address: object) -> list[Row]:
     return [row for part in rows["sections"] for row in part["registers"] if row["address"] == address]
 
 
-def _command(rows: drawn.Row) -> tuple[drawn.Row, str]:
+def _command(rows: Row) -> tuple[Row, str]:
     """A run is another value, where values are listed."""
     every = rows["operation"]["commands"]
     one = next(each for each in every if each["does"] == "run_forward")
@@ -118,17 +138,17 @@ def _command(rows: drawn.Row) -> tuple[drawn.Row, str]:
     return rows, "a run is 77"
 
 
-def _fault(rows: drawn.Row) -> tuple[drawn.Row, str]:
+def _fault(rows: Row) -> tuple[Row, str]:
     """The present fault is elsewhere."""
     at = rows["faults"]["present"]
-    there = drawn.moved(at, 5)
+    there = moved(at, 5)
     for row in _rows(rows, at):
         row["address"] = there
     rows["faults"] |= {"present": there, "registers": [there]}
     return rows, f"the present fault is at {there}"
 
 
-def _reference(rows: drawn.Row) -> tuple[drawn.Row, str]:
+def _reference(rows: Row) -> tuple[Row, str]:
     """The reference is ten times as large, where it has a scale."""
     (row,) = _rows(rows, rows["operation"]["reference"]["register"])
     if "scale" not in row:
@@ -137,7 +157,7 @@ def _reference(rows: drawn.Row) -> tuple[drawn.Row, str]:
     return rows, "the reference is ten times as large"
 
 
-def _frequency(rows: drawn.Row) -> tuple[drawn.Row, str]:
+def _frequency(rows: Row) -> tuple[Row, str]:
     """The output frequency is ten times as large."""
     (row,) = _rows(rows, rows["operation"]["standstill"]["all"][1]["register"])
     row["scale"]["factor"] *= 10
@@ -149,8 +169,7 @@ def report(found: Sequence[Judged]) -> int:
     bad, count = summary(found), Counter[str]()
     for each in found:
         count.update({key: int(number) for key, number in each.figures.items()})
-    kinds = [kind for kind in vars(model).values() if isinstance(kind, type) and kind.__module__ == model.__name__]
-    every = {f"{kind.__name__}.{each.name}" for kind in kinds if is_dataclass(kind) for each in fields(kind)}
+    every = format_keys()
     rare = {key: count[key] for key in sorted(every) if count[key] < EACH}
     print(f"keys: {len(every)}, fewer than {EACH} times: {rare}")
     return bad

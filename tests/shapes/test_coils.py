@@ -53,6 +53,18 @@ def test_an_address_knows_its_table() -> None:
     assert address_text(SPACES["input"] + 0x1000) == "input 1000H"
 
 
+def test_an_erratum_names_a_misprinted_bit_of_an_input_register() -> None:
+    bit = "bits: [{bit: 3, name: Warm, printed: {bit: B}}]}"
+    row = "      - {address: 1002H, name: State, " + bit
+    misprint = (
+        "errata: [{about: [input 1002H.3], where: t, printed: b, used: a, why: w, confidence: open, measured: false}]"
+    )
+    text = MAP.replace("\nstorage:", f"\n{row}\nstorage:")
+    with pytest.raises(MapError, match=r"`about: \[input 1002H\.3\]`"):
+        loads(text, "x.yaml")
+    assert loads(text.replace("errata: []", f"errata: [{{{about}}}]"), "x.yaml").errata[0].about == ("input 1002H.3",)
+
+
 def test_a_condition_on_a_pair_is_one_on_each_of_its_words() -> None:
     proof = [(address_text(each.register), each.equals) for each in drive().operation.standstill.all]
     assert proof == [("coil 000EH", 0), ("1000H", 0), ("1001H", 0)]
