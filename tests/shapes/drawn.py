@@ -173,9 +173,9 @@ def by_two(sheet: Sheet, at: int) -> None:
                               | ({"first": first} if first else {}))  # fmt: skip
 
 
-def by_coils(sheet: Sheet, at: int) -> None:
+def by_coils(sheet: Sheet, _: int) -> None:
     """A coil runs, another one turns round, a third resets."""
-    run, turns, again = (sheet.place(at + number, "coil") for number in range(3))
+    run, turns, again = (sheet.place(0x0100 + number, "coil") for number in range(3))
     kinds = {run: ("Run command", ("Stop", "stops"), ("Run", "starts")),
              turns: ("Direction", ("Forward", "forward"), ("Reverse", "reverses")),
              again: ("Fault reset", ("Nothing", "nothing"), ("Reset", "resets"))}  # fmt: skip
@@ -224,11 +224,11 @@ def reference(sheet: Sheet, at: int) -> Row:
     return said
 
 
-def status_inputs(sheet: Sheet, at: int) -> None:
+def status_inputs(sheet: Sheet, _: int) -> None:
     """Discrete inputs, each a sign of its own."""
     kinds = {"running": "Running", "reverse": "Turns in reverse"} | some(sheet, {"fault": "Fault", "ready": "Ready"})
     for number, (kind, name) in enumerate(kinds.items()):
-        place = sheet.place(at + number, "discrete")
+        place = sheet.place(0x0200 + number, "discrete")
         sheet.inputs.append(sheet.named(name, address=place))
         sheet.status[kind] = {"register": place, "equals": 1}
     sheet.status["standstill"] = sheet.status["running"] | {"equals": 0}

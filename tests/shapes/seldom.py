@@ -542,13 +542,19 @@ def add(sheet: Sheet, made: Row, places: tuple[int, int, int, int]) -> None:
     prose(sheet, made, next(row["address"].partition("-")[0] for row in sheet.shown if "name" in row))
 
 
+def _low(sheet: Sheet, place: str) -> bool:
+    """Whether an address is one of the lowest, by which the simulated drive can tell its tables apart."""
+    first = place.partition("-")[0]
+    return (int(first[:-1], 16) if first.endswith("H") else int(first) - sheet.numbers) < 0x3F00
+
+
 def last(sheet: Sheet, made: Row, measured: list[Row]) -> None:
     """What needs the whole map: another table, its frames, and what any entry may have."""
     section = next(each for each in made["sections"] if each["id"] == "status")
     stands = next(each["register"] for each in measured if each["shows"] == "output_frequency")
     row = next(each for each in section["registers"] if each["address"] == stands)
     at = int(stands[:-1], 16) if stands.endswith("H") else int(stands) - sheet.numbers
-    if sheet.maybe(0.1):
+    if sheet.maybe(0.3) and all(_low(sheet, each["address"]) for each in section["registers"]):
         input_registers(sheet, made, section)
         row = next(each for each in section["registers"] if each["address"] == sheet.place(at, "input")[6:])
     if sheet.maybe():

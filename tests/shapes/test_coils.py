@@ -56,9 +56,7 @@ def test_an_address_knows_its_table() -> None:
 def test_an_erratum_names_a_misprinted_bit_of_an_input_register() -> None:
     bit = "bits: [{bit: 3, name: Warm, printed: {bit: B}}]}"
     row = "      - {address: 1002H, name: State, " + bit
-    misprint = (
-        "errata: [{about: [input 1002H.3], where: t, printed: b, used: a, why: w, confidence: open, measured: false}]"
-    )
+    about = "about: [input 1002H.3], where: t, printed: b, used: a, why: w, confidence: open, measured: false"
     text = MAP.replace("\nstorage:", f"\n{row}\nstorage:")
     with pytest.raises(MapError, match=r"`about: \[input 1002H\.3\]`"):
         loads(text, "x.yaml")

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 
+from driveblocks.maps.form import wire
 from driveblocks.maps.model import Drive, Frame, Means
 from driveblocks.reference.framing import ascii_decode, rtu_open
 from driveblocks.reference.request import BUILDABLE, Asked
@@ -139,7 +140,7 @@ def _quantities(drive: Drive, frame: Frame) -> Iterator[Item]:
         row = drive.register_at(quantity.register)
         if row is None or row.scale is None or request.means.address is None:
             continue
-        raw = f"Words[{quantity.register - request.means.address}]"
+        raw = f"Words[{wire(quantity.register) - wire(request.means.address)}]"
         words = f"{quantity.value} {quantity.unit}"
         yield bench.is_real(f"{scale_block(drive, row)}(Raw := {raw})", float(quantity.value), words)
 

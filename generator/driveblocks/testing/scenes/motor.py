@@ -17,7 +17,7 @@ from structured_text.language.writing import word
 
 TOLD = "Seen.UntoldMs < 50"
 """The drive has just received a stop."""
-POWER = Step("power-up", until="Motor.Ready", ms=2000, shows={"Reason": "READY"}, brisk=True)
+POWER = Step("power-up", until="Motor.Ready", ms=4000, shows={"Reason": "READY"}, brisk=True)
 PINS: dict[str, str] = {does: does.title().replace("_", "") for does in MOTIONS}
 RUNNING: Shows = {"Running": True, "Reason": "RUNS", "StopConfirmed": False, "Error": False, "CommOk": True}
 STANDS: Shows = {"StopConfirmed": True, "Running": False, "Seen.Driven": False, "OutputFrequencyHz": 0.0}
@@ -97,7 +97,7 @@ def _power_up(can: Ability) -> Iterator[Step]:
         "Motor.Diagnosis.CanCoastStop": can.can("coast_stop"),
         "Motor.Diagnosis.CanResetFault": can.can("fault_reset"),
     }
-    yield Step("a stop is sent, though it is at standstill", {"Fate.Dumb": False}, "Motor.Ready", 3000, told)
+    yield Step("a stop is sent, though it is at standstill", {"Fate.Dumb": False}, "Motor.Ready", 5000, told)
     yield Step("nothing starts", ms=500, shows=NOTHING_STARTED | abilities | {"HardStop.HardStopOk": False})
     yield Step("the contact closes by an edge", {"Pins.HardReset": True}, ms=50, shows={"HardStop.HardStopOk": True})
 
@@ -126,7 +126,8 @@ def _motion(can: Ability, does: str) -> Iterator[Step]:
     yield Step("it ramps up", {}, f"{STARTED} AND ({pace})", 1000 + path, {
         "Seen.Order": can.order(does), **(asked if path < 1000 else {}),
     })  # fmt: skip
-    until = f"ABS(Seen.Milli) >= {round(1000 * hertz) - 200}" if jog else "Motor.AtSpeed"
+    jogs = f"(ABS(Seen.Milli) >= {round(1000 * hertz) - 200}) AND NOT Motor.ZeroSpeed"
+    until = jogs if jog else "Motor.AtSpeed"
     shows: Shows = {
         "Running": True, "Seen.Starts": 1, "Seen.Order": can.order(does), "Error": False, "ZeroSpeed": False,
         f"ABS(Seen.Milli {opposite} {round(1000 * hertz)}) <= 200": True,
