@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from driveblocks.maps.form import wire
 from driveblocks.maps.model import Drive, Frame, Means
 from driveblocks.reference.framing import ascii_decode, rtu_open
-from driveblocks.reference.request import BUILDABLE, Asked
+from driveblocks.reference.request import BUILDABLE, Asked, Requests
 from driveblocks.testing import bench
 from driveblocks.testing.naming import scale_block
 from driveblocks.testing.script import Item, Script
@@ -40,9 +40,14 @@ def _blocks(drive: Drive) -> dict[str, str]:
     }
 
 
+def buildable(drive: Drive) -> frozenset[int]:
+    """Functions of the request block: 04H is none where it reads another table than that of holding registers."""
+    return BUILDABLE & Requests(drive).functions.keys()
+
+
 def _frame(program: Script, drive: Drive, frame: Frame) -> None:
     source = frame.source
-    if frame.direction == "request" and frame.means.function in BUILDABLE:
+    if frame.direction == "request" and frame.means.function in buildable(drive):
         program.stage(f"{frame.id}: {frame.means.says}", *_built(frame), source=source)
     elif frame.direction == "reply":
         for words, asked in _questions(drive, frame):
@@ -93,7 +98,9 @@ def _questions(drive: Drive, frame: Frame) -> Iterator[tuple[str, list[Item]]]:
     """Requests that a reply may answer, with words: the one that it names, or all that it may belong to."""
     if frame.answers is not None:
         request = next(one for one in drive.frames if one.id == frame.answers)
-        yield frame.means.says, [*bench.build(asked(request.means, ascii_mode=request.mode == "ascii"))]
+        sent = asked(request.means, ascii_mode=request.mode == "ascii")
+        can = request.means.function in buildable(drive)
+        yield frame.means.says, [*bench.build(sent)] if can else bench.open_request(sent)
         return
     form = drive.errors.form
     if frame.means.error is None:
