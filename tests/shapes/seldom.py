@@ -358,8 +358,9 @@ def numbers(sheet: Sheet, made: Row) -> None:
     if sheet.maybe(0.1):
         stands.pop("equals")
         stands["below"] = sheet.chance.choice((1, 5))
-    if sheet.maybe(0.1) and "below" not in stands:
+    if sheet.maybe(0.2) and "below" not in stands:
         status["running"]["any"].append({"register": stands["register"], "above": 0})
+        operation["status"].remove(status["reverse"])  # it may be in another read than what says that it runs
     if sheet.maybe(0.1):
         operation["status"].append({"shows": "zero_speed", "any": [{"register": stands["register"], "below": 1}],
                                     "source": "table 2"})  # fmt: skip
@@ -402,8 +403,9 @@ def reset(sheet: Sheet, made: Row, at: int) -> None:
         sheet.words.append(sheet.named("Fault reset", address=sheet.place(at), does=["resets"]))
         commands.append({"does": "fault_reset", "register": sheet.place(at), "value": 1, "source": "table 1"})
     for one in commands:
-        if one["does"] == "fault_reset" and sheet.maybe(0.2):
-            (one["first"][0] if "first" in one and sheet.maybe(0.7) else one)["silent_ms"] = 500
+        if one["does"] == "fault_reset" and sheet.maybe(0.3):
+            pulse = [step for step in one.get("first", ()) if "for_ms" in step]
+            (pulse[0] if pulse else one)["silent_ms"] = 500  # the write that resets; what ends a pulse may be a stop
 
 
 # ---------------------------------------------------------------- faults, refusals, prose

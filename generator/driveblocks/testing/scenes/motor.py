@@ -103,7 +103,7 @@ def _power_up(can: Ability) -> Iterator[Step]:
 
 
 def _held(can: Ability) -> Iterator[Step]:
-    yield Step("it starts nothing", {"RunForward": True}, ms=1500, shows=NOTHING_STARTED | {
+    yield Step("it starts nothing", {"RunForward": True}, ms=max(1500, 400 * can.turns), shows=NOTHING_STARTED | {
         "StopConfirmed": True,
     })  # fmt: skip
     read = max(500, 400 * can.turns)  # the settings of the drive may be among many reads
