@@ -3,17 +3,16 @@
 `python -m tests.shapes.drawn SEED` prints one. tests/shapes/life.py plays a life of each.
 """
 
+import re
 import sys
 from collections.abc import Sequence
-from dataclasses import dataclass, field
 from random import Random
 from typing import Any
 
 import yaml
+from tests.shapes import seldom
+from tests.shapes.sheet import Row, Sheet, bit, hexadecimal
 
-from driveblocks.modbus.checksum import crc16
-
-Row = dict[str, Any]
 BASES = (0x0100, 0x1000, 0x2000, 0x2100, 0x3000, 0x5000, 0x7000, 0x9000)
 UNITS = {
     "output_current": ("Output current", "A", 0.1), "output_voltage": ("Output voltage", "V", 0.1),
@@ -32,73 +31,6 @@ LANGUAGES = ("en", "en", "zh", "de")
 TIMES = {"trips": "Trip", "coast_stop": "Coast stop", "stop": "Stop by the ramp", "runs_on": "Run on"}
 
 
-def hexadecimal(number: int) -> str:
-    """As a manual prints an address."""
-    return f"{number:04X}H"
-
-
-@dataclass
-class Sheet:
-    """A map while it is drawn."""
-
-    chance: Random
-    language: str = "en"
-    numbers: int = 0
-    """What is added to an address where the manual numbers its registers; 0: it gives addresses."""
-    bases: list[int] = field(default_factory=list)
-    settings: list[Row] = field(default_factory=list)
-    commands: list[Row] = field(default_factory=list)
-    words: list[Row] = field(default_factory=list)
-    """Rows that are written."""
-    shown: list[Row] = field(default_factory=list)
-    """Rows that are read alone."""
-    status: dict[str, Row] = field(default_factory=dict)
-    """What pins show, by their names: a condition."""
-    states: list[Row] = field(default_factory=list)
-    absent: list[Row] = field(default_factory=list)
-
-    def maybe(self, part: float = 0.5) -> bool:
-        """With a chance."""
-        return self.chance.random() < part
-
-    def place(self, number: int) -> str:
-        """A register as this manual writes it."""
-        return str(number + self.numbers) if self.numbers else hexadecimal(number)
-
-    def named(self, name: str, **keys: object) -> Row:
-        """A row with its name, as the language of the manual wants it."""
-        own: Row = {"en": {}, "zh": {"zh": f"名称 {name}"}, "de": {"wording": f"Bezeichnung {name}"}}[self.language]
-        return {"name": name, **own, **keys}
-
-    def text(self, words: str) -> Row:
-        """A text in the manual's language."""
-        own = {"en": {}, "zh": {"zh": f"文字 {words}"}, "de": {"wording": f"Wortlaut {words}"}}[self.language]
-        return {"en": words, **own}
-
-    def setting(self, number: int, name: str, **keys: object) -> str:
-        """A setting of the keypad; its id."""
-        self.settings.append(self.named(name, id=f"P3.{number:02}", source="section 1", **keys))
-        return f"P3.{number:02}"
-
-    def listed(self, *names: str) -> list[Row]:
-        """Values from 0, with these names."""
-        return [self.named(name, value=value) for value, name in enumerate(names)]
-
-    def bits(self, number: int) -> list[int]:
-        """So many different bits of a word."""
-        return self.chance.sample(range(16), number)
-
-
-def moved(place: str, number: int) -> str:
-    """A register so many further on."""
-    return hexadecimal(int(place[:-1], 16) + number) if place.endswith("H") else str(int(place) + number)
-
-
-def bit(number: int | str) -> str | int:
-    """A bit as maps write it."""
-    return number if isinstance(number, str) or number < 10 else f"{number:X}"
-
-
 # ---------------------------------------------------------------- commands
 
 
@@ -114,7 +46,7 @@ def by_values(sheet: Sheet, at: int) -> None:
         "fault_reset": ("Fault reset", ["resets"]),
     })  # fmt: skip
     values = sheet.chance.sample(range(1, 40), len(kinds))
-    listed = [sheet.named(name, value=value, does=does)
+    listed = [sheet.named(name, value=value, does=does) | seldom.counting(sheet, does)
               for value, (name, does) in zip(values, kinds.values(), strict=True)]  # fmt: skip
     sheet.words.append(sheet.named("Run command", address=sheet.place(at), values=listed))
     sheet.commands += [{"does": does, "register": sheet.place(at), "value": value, "source": "table 1"}
@@ -241,7 +173,24 @@ def by_two(sheet: Sheet, at: int) -> None:
                               | ({"first": first} if first else {}))  # fmt: skip
 
 
-SHAPES = (by_values, by_values, by_bits, by_bits, by_pulse, by_path, by_two)
+def by_coils(sheet: Sheet, _: int) -> None:
+    """A coil runs, another one turns round, a third resets."""
+    run, turns, again = (sheet.place(0x0100 + number, "coil") for number in range(3))
+    kinds = {run: ("Run command", ("Stop", "stops"), ("Run", "starts")),
+             turns: ("Direction", ("Forward", "forward"), ("Reverse", "reverses")),
+             again: ("Fault reset", ("Nothing", "nothing"), ("Reset", "resets"))}  # fmt: skip
+    for place, (name, *values) in kinds.items():
+        listed = [sheet.named(own, value=value, does=[does]) for value, (own, does) in enumerate(values)]
+        sheet.coils.append(sheet.named(name, address=place, values=listed))
+    for does, value, way in (("run_forward", 1, 0), ("run_reverse", 1, 1), ("stop", 0, None)):
+        first = [] if way is None else [{"register": turns, "value": way}]
+        sheet.commands.append({"does": does, "register": run, "value": value, "source": "table 1"}
+                              | ({"first": first} if first else {}))  # fmt: skip
+    pulse = {"register": again, "value": 1, "for_ms": 50}
+    sheet.commands.append({"does": "fault_reset", "register": again, "value": 0, "source": "table 1", "first": [pulse]})
+
+
+SHAPES = (by_values, by_values, by_bits, by_bits, by_pulse, by_path, by_two, by_coils)
 
 
 # ---------------------------------------------------------------- reference, status, measures
@@ -275,10 +224,20 @@ def reference(sheet: Sheet, at: int) -> Row:
     return said
 
 
+def status_inputs(sheet: Sheet, _: int) -> None:
+    """Discrete inputs, each a sign of its own."""
+    kinds = {"running": "Running", "reverse": "Turns in reverse"} | some(sheet, {"fault": "Fault", "ready": "Ready"})
+    for number, (kind, name) in enumerate(kinds.items()):
+        place = sheet.place(0x0200 + number, "discrete")
+        sheet.inputs.append(sheet.named(name, address=place))
+        sheet.status[kind] = {"register": place, "equals": 1}
+    sheet.status["standstill"] = sheet.status["running"] | {"equals": 0}
+
+
 def status_word(sheet: Sheet, at: int) -> None:
     """Bits in any place; what pins show of them."""
     word = sheet.place(at)
-    if sheet.states or any("until" in step for one in sheet.commands for step in one.get("first", ())):
+    if any("until" in step for one in sheet.commands for step in one.get("first", ())):
         names = {"Ready to switch on": 0, "Ready to operate": 1, "Operation enabled": 2, "Fault": 3,
                  "Switching on inhibited": 6, "Warning": 7, "Speed reached": 8, "Turns in reverse": 14}  # fmt: skip
         sheet.states.append({"name": "ready_to_switch_on", "register": word, "mask": "0045H", "equals": "0001H",
@@ -365,10 +324,13 @@ def faults(sheet: Sheet, at: int) -> Row:
     return made
 
 
-def warnings(sheet: Sheet, at: int) -> Row:
-    """Warning codes in a register of their own."""
-    sheet.shown.append(sheet.named("Present warning", address=sheet.place(at)))
-    return {"source": "table 4", "register": sheet.place(at),
+def warnings(sheet: Sheet, at: int, faults: Row) -> Row:
+    """Warning codes in a register of their own, or in the other half of the present fault."""
+    half = "present_bits" in faults and sheet.maybe(0.7)
+    if not half:
+        sheet.shown.append(sheet.named("Present warning", address=sheet.place(at)))
+    where = {"register": faults["present"], "bits": "8-F"} if half else {"register": sheet.place(at)}
+    return {"source": "table 4", **where,
             "codes": [sheet.named(f"Care {code}", code=f"{code:02X}H") for code in (5, 9)]}  # fmt: skip
 
 
@@ -407,7 +369,7 @@ def serial(sheet: Sheet) -> Row:
     return made
 
 
-def watchdog(sheet: Sheet, code: str, speed: str) -> Row:
+def watchdog(sheet: Sheet, code: str, speed: str, at: int) -> Row:
     """What the drive does when its line is silent."""
     does = sheet.chance.sample(sorted(TIMES), sheet.chance.randint(1, 3))
     made: Row = {"source": "section 1", "reactions": [{"does": does[0]}]}
@@ -422,7 +384,10 @@ def watchdog(sheet: Sheet, code: str, speed: str) -> Row:
         setting = sheet.setting(4, "Time-out", range={"min": 0, "max": 600}, needed={"why": "0 is off"})
         made["time"] = {"setting": setting, "milliseconds": 100, "source": "section 1"}
         made["disabled_by"] = {"setting": setting, "value": 0}
-    elif made["reactions"] == [{"does": "runs_on"}]:
+    elif sheet.maybe(0.3):
+        sheet.shown.append(sheet.named("Time-out", address=sheet.place(at)))
+        made["time"] = {"register": sheet.place(at), "milliseconds": 100, "source": "section 1"}
+    if "disabled_by" not in made and made["reactions"] == [{"does": "runs_on"}]:
         made["reactions"] = [{"does": "trips"}]
     if any(each["does"] == "trips" for each in made["reactions"]):
         made["fault"] = code
@@ -449,31 +414,27 @@ def storage(sheet: Sheet, at: int) -> Row:
     return made
 
 
-def frames(sheet: Sheet, register: int) -> list[Row]:
-    """A request of the manual, with its checksum."""
-    data = bytes([1, 3, *register.to_bytes(2, "big"), 0, 1])
-    sent = (data + crc16(data).to_bytes(2, "little")).hex(" ").upper()
-    means = {"says": "reads the status", "unit": 1, "function": "03H", "address": sheet.place(register), "words": 1}
-    kind = {"id": "request", "direction": "request", "mode": "rtu", "source": "section 2"}
-    return [kind | {"printed": sent, "checksum": "right", "correct": sent, "means": means}]
-
-
 # ---------------------------------------------------------------- the map
 
 
-def table(name: str, access: str, rows: Sequence[Row], title: Row) -> Row:
-    """A table of registers."""
-    return {"id": name, "title": title, "source": "table 1", "access": access, "registers": list(rows)}
+def table(name: str, access: str, rows: Sequence[Row], title: Row, space: str = "") -> Row:
+    """A table of registers; one of another space names it once."""
+    own = [row | {"address": row["address"].removeprefix(f"{space} ")} for row in rows]
+    made = {"id": name, "title": title, "source": "table 1", "access": access, "registers": own}
+    return made | ({"space": space} if space else {})
 
 
 def draw(seed: int) -> Row:
     """A map."""
     chance = Random(f"map {seed}")
     sheet = Sheet(chance, chance.choice(LANGUAGES), chance.choice((0, 0, 0, 1, 40001)))
+    if sheet.numbers and sheet.maybe():
+        sheet.tables = {"coil": 1, "discrete": 10001, "input": 30001}
     commands, shown, values, parameters = chance.sample(BASES, 4)
     chance.choice(SHAPES)(sheet, commands)
     speed = reference(sheet, commands + 1)
-    status_word(sheet, shown)
+    path = any("until" in step for one in sheet.commands for step in one.get("first", ()))
+    (status_word if path or sheet.maybe(0.9) else status_inputs)(sheet, shown)
     measured = measures(sheet, values)
     trouble = faults(sheet, values + 0x80)
     memory = storage(sheet, parameters)
@@ -487,39 +448,53 @@ def draw(seed: int) -> Row:
         operation["own_maximum"] = {"register": sheet.place(parameters + 1), "source": "table 4"}
     made = head(sheet, seed) | {"serial": serial(sheet)}
     more: Row = {"storage": memory, "operation": operation, "faults": trouble}
-    more |= {"warnings": warnings(sheet, values + 0x90)} if sheet.maybe(0.3) else {}
-    more |= {"watchdog": watchdog(sheet, trouble["codes"][0]["code"], speed["register"])} if sheet.maybe(0.6) else {}
+    more |= {"warnings": warnings(sheet, values + 0x90, trouble)} if sheet.maybe(0.3) else {}
+    if sheet.maybe(0.6):
+        more["watchdog"] = watchdog(sheet, trouble["codes"][0]["code"], speed["register"], values + 0xF0)
     if sheet.maybe(0.3):
         sheet.shown.append(sheet.named("Product code", address=sheet.place(values + 0xA0)))
         more["identity"] = {"all": [{"register": sheet.place(values + 0xA0), "equals": hexadecimal(seed % 60000 + 1)}],
                             "source": "table 2", "why": "each family has a code of its own"}  # fmt: skip
-    made |= rest(sheet, shown)
+    made |= rest(sheet)
     if sheet.maybe():
         operation["lower_limit"] = sheet.setting(8, "Lowest frequency", default="0", range={"min": 0, "max": 500})
-    said = {*more, *operation, *(["trip_output"] if "trip_output" in trouble else [])}
+    made |= {"settings": sheet.settings, "sections": [], **more}
+    seldom.add(sheet, made, (commands, shown, values, parameters))
+    made["sections"] = tables(sheet, made["sections"])
+    said = {*made, *operation, *(["trip_output"] if "trip_output" in trouble else [])}
     made["absent"].append({"what": "what is missing here", "about": [each for each in LOOKED_FOR if each not in said],
                            "matters": "nobody knows", "find_out": "ask the maker"})  # fmt: skip
-    made["settings"] = sheet.settings
-    tables = [table("commands", "rw", sheet.words, sheet.text("Commands")),
-              table("status", "r", sheet.shown, sheet.text("Status"))]  # fmt: skip
-    return made | {"sections": tables} | more
+    seldom.last(sheet, made, measured)
+    return made
+
+
+def tables(sheet: Sheet, others: Sequence[Row]) -> list[Row]:
+    """All tables of registers, each of which has rows."""
+    made = [table("commands", "rw", sheet.words, sheet.text("Commands")), *others,
+            table("status", "r", sheet.shown, sheet.text("Status")),
+            table("coils", "rw", sheet.coils, sheet.text("Coils"), "coil"),
+            table("inputs", "r", sheet.inputs, sheet.text("Inputs"), "discrete")]  # fmt: skip
+    return [each for each in made if each["registers"]]
 
 
 def head(sheet: Sheet, seed: int) -> Row:
     """Who makes it, and how its manual numbers registers."""
-    made: Row = {"format": 2, "prefix": f"DR{seed}", "id_forms": ["A9.99"]}
+    made: Row = {"format": 2, "prefix": f"DR{seed % 1000}", "id_forms": ["A9.99"]}
     made |= {"vendor": sheet.text("Drawn"), "family": sheet.text(f"Drawn {seed}")}
     made["manual"] = {"language": sheet.language, "title": sheet.text("Manual"), "publisher": sheet.text("Drawn")}
     if sheet.maybe(0.2):
         made["manual"]["edition"] = "2026"
     if sheet.numbers:
-        made["numbering"] = {"first": sheet.numbers, "says": "less the first is sent", "source": "section 2"}
+        how = {"says": "less the first is sent", "source": "section 2"}
+        made["numbering"] = {"first": sheet.numbers, **how, **sheet.tables}
     return made
 
 
-def rest(sheet: Sheet, shown: int) -> Row:
+def rest(sheet: Sheet) -> Row:
     """Limits, functions, refusals, and what the manual tells in prose."""
     functions = {3: "Read registers", 6: "Write register"} | ({16: "Write registers"} if sheet.maybe() else {})
+    functions |= {1: "Read coils", 5: "Write coil"} if sheet.coils else {}
+    functions |= {2: "Read discrete inputs"} if sheet.inputs else {}
     most = sheet.chance.choice((2, 8, 16, 100) if any("words" in row for row in sheet.shown) else (1, 2, 8, 16, 100))
     made: Row = {"limits": {"read_words": {"value": most, "source": "section 2"}}}
     made["functions"] = [sheet.named(name, code=f"{code:02X}H", source="section 2") for code, name in functions.items()]
@@ -530,10 +505,20 @@ def rest(sheet: Sheet, shown: int) -> Row:
         made["errors"]["form"] = {"kind": "exception", "add": "80H", "source": "section 3"}
     made["notices"] = [{"kind": kind, "text": sheet.text("Mind the shaft."), "source": "section 1"}
                        for kind in ("prohibition", "warning", "hazard", "procedure") if sheet.maybe(0.2)]  # fmt: skip
-    made |= {"frames": frames(sheet, shown) if sheet.maybe() else [], "errata": []}
+    made |= {"frames": [], "errata": []}
     made["absent"] = [{"what": "how warm it may get", "about": ["serial"], "matters": "it wears out",
-                       "find_out": "ask the maker"}, *sheet.absent]  # fmt: skip
+                       "find_out": "ask the maker"}]  # fmt: skip
     return made
+
+
+def sister(seed: int, base: str) -> Row:
+    """A map that says only what is different from the one of this seed, which is its base."""
+    made = draw(seed)
+    own: Row = {key: made[key] for key in ("format", "vendor", "manual")}
+    own |= {"base": base, "prefix": f"SI{seed % 1000}", "family": made["family"] | {"en": f"Sister {seed}"}}
+    gone = [f"operation > measures > {each['shows']}" for each in made["operation"]["measures"]
+            if each["shows"] != "output_frequency"]  # fmt: skip
+    return own | ({"without": gone[:1]} if gone else {})
 
 
 def text(seed: int) -> str:
@@ -552,6 +537,15 @@ class _Plain(yaml.SafeDumper):
     def ignore_aliases(self, _: object) -> bool:
         """Maps have none."""
         return True
+
+
+def _quoted(dumper: yaml.SafeDumper, text: str) -> yaml.ScalarNode:
+    """A text that could be read as a number is quoted."""
+    style = '"' if re.fullmatch(r"[0-9]+(E[0-9]+)?", text) else None
+    return dumper.represent_scalar("tag:yaml.org,2002:str", text, style=style)
+
+
+_Plain.add_representer(str, _quoted)
 
 
 if __name__ == "__main__":

@@ -16,9 +16,11 @@ from driveblocks.maps.collection import Source
 from driveblocks.maps.form import SPACES, address_text, span_text
 from driveblocks.maps.load import loads
 from driveblocks.maps.model import Drive
+from driveblocks.maps.plan import dialect
 from driveblocks.maps.problem import MapError
 from driveblocks.meaning.polls import polls
 from driveblocks.output.units import units
+from driveblocks.reference import reply
 from driveblocks.render.text import languages
 from structured_text.engines.embedded.engine import EmbeddedEngine
 from structured_text.engines.engine import Engine
@@ -51,6 +53,44 @@ def test_an_address_knows_its_table() -> None:
     assert (run.name, reference.name) == ("Run command", "Frequency command")
     assert [span_text(row.address) for row in (run, reference)] == ["coil 0000H", "0000H-0001H"]
     assert address_text(SPACES["input"] + 0x1000) == "input 1000H"
+
+
+def test_an_example_frame_of_an_input_register_is_no_request_of_the_block() -> None:
+    frames = """frames:
+  - {id: asked, direction: request, mode: rtu, source: section 2, printed: 01 04 10 00 00 01 35 0A, checksum: right,
+     correct: 01 04 10 00 00 01 35 0A, means: {says: reads 1000H, unit: 1, function: 04H, address: 1000H, words: 1}}
+  - {id: told, direction: reply, mode: rtu, source: section 2, printed: 01 04 02 01 F4 B9 27, checksum: right,
+     correct: 01 04 02 01 F4 B9 27, answers: asked, means: {says: it is 50 A, unit: 1, function: 04H, words: 1,
+     byte_count: 2, values: [500], quantities: [{register: input 1000H, value: 50, unit: A}]}}"""
+    programs = {each.name: each.text for each in unit(MAP.replace("frames: []", frames)).suite.programs}
+    assert "Request.FunctionCode := 4;" in programs["COI_TestFrames"]
+    assert "OutputCurrentA(Raw := Words[0])" in programs["COI_TestFrames"]
+
+
+def test_a_refusal_names_its_register_by_what_is_sent() -> None:
+    form = "form: {kind: write_reply, function: 06H, address: input 1000H, source: section 3}"
+    made = drive(MAP.replace("errors: {", f"errors: {{{form}, "))
+    assert dialect(made).address == reply.dialect(made).address == 0x1000
+
+
+def test_a_fault_is_shown_by_its_bits_alone() -> None:
+    word = "name: Present fault"
+    status = "    - {shows: fault, any: [{register: coil 0017H, equals: 1}], source: table 1}\n"
+    text = MAP.replace(word, f"{word}, bits: [{{bit: 0, id: OC, name: Overcurrent}}]").replace(status, "")
+    relation = "bits: {first: 0011H, last: 0011H, source: table 3}"
+    made = unit(text.replace("present: 0011H", relation))
+    (block,) = (each.text for each in made.blocks if each.path.endswith("COI_Drive.st"))
+    assert "Fault := CommOk AND (Reads.FaultAgeMs < NEVER_MS) AND (Code <> 0);" in block
+
+
+def test_an_erratum_names_a_misprinted_bit_of_an_input_register() -> None:
+    bit = "bits: [{bit: 3, name: Warm, printed: {bit: B}}]}"
+    row = "      - {address: 1002H, name: State, " + bit
+    about = "about: [input 1002H.3], where: t, printed: b, used: a, why: w, confidence: open, measured: false"
+    text = MAP.replace("\nstorage:", f"\n{row}\nstorage:")
+    with pytest.raises(MapError, match=r"`about: \[input 1002H\.3\]`"):
+        loads(text, "x.yaml")
+    assert loads(text.replace("errata: []", f"errata: [{{{about}}}]"), "x.yaml").errata[0].about == ("input 1002H.3",)
 
 
 def test_a_condition_on_a_pair_is_one_on_each_of_its_words() -> None:

@@ -5,9 +5,10 @@ from collections.abc import Iterator
 from driveblocks.bench import kit
 from driveblocks.bench.naming import scale_block
 from driveblocks.bench.script import Item, Script
+from driveblocks.maps.form import wire
 from driveblocks.maps.model import Drive, Frame, Means
 from driveblocks.reference.framing import ascii_decode, rtu_open
-from driveblocks.reference.request import BUILDABLE, Asked
+from driveblocks.reference.request import BUILDABLE, Asked, Requests
 
 ABSENT = 0x00
 """What is in a PLC register's low byte that is not sent, printed as --."""
@@ -39,9 +40,14 @@ def _blocks(drive: Drive) -> dict[str, str]:
     }
 
 
+def buildable(drive: Drive) -> frozenset[int]:
+    """Functions of the request block: 04H is none where it reads another table than that of holding registers."""
+    return BUILDABLE & Requests(drive).functions.keys()
+
+
 def _frame(program: Script, drive: Drive, frame: Frame) -> None:
     source = frame.source
-    if frame.direction == "request" and frame.means.function in BUILDABLE:
+    if frame.direction == "request" and frame.means.function in buildable(drive):
         program.stage(f"{frame.id}: {frame.means.says}", *_built(frame), source=source)
     elif frame.direction == "reply":
         for words, asked in _questions(drive, frame):
@@ -92,7 +98,9 @@ def _questions(drive: Drive, frame: Frame) -> Iterator[tuple[str, list[Item]]]:
     """Requests that a reply may answer, with words: the one that it names, or all that it may belong to."""
     if frame.answers is not None:
         request = next(one for one in drive.frames if one.id == frame.answers)
-        yield frame.means.says, [*kit.build(asked(request.means, ascii_mode=request.mode == "ascii"))]
+        sent = asked(request.means, ascii_mode=request.mode == "ascii")
+        can = request.means.function in buildable(drive)
+        yield frame.means.says, [*kit.build(sent)] if can else kit.open_request(sent)
         return
     form = drive.errors.form
     if frame.means.error is None:
@@ -137,7 +145,7 @@ def _quantities(drive: Drive, frame: Frame) -> Iterator[Item]:
         row = drive.register_at(quantity.register)
         if row is None or row.scale is None or request.means.address is None:
             continue
-        raw = f"Words[{quantity.register - request.means.address}]"
+        raw = f"Words[{wire(quantity.register) - wire(request.means.address)}]"
         words = f"{quantity.value} {quantity.unit}"
         yield kit.is_real(f"{scale_block(drive, row)}(Raw := {raw})", float(quantity.value), words)
 

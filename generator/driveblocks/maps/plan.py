@@ -159,7 +159,8 @@ def dialect(drive: Drive) -> Dialect:
     form = drive.errors.form
     if form is None:
         return Dialect(two_byte_count=tolerant)
-    return Dialect(form.add, form.function, form.address, tolerant)
+    address = None if form.address is None else wire(form.address)
+    return Dialect(form.add, form.function, address, tolerant)
 
 
 def busy(drive: Drive) -> int:

@@ -42,7 +42,8 @@ def dialect(drive: Drive) -> Dialect:
         return Dialect(two_byte_count=tolerant)
     if form.kind == "exception":
         return Dialect(add=form.add, two_byte_count=tolerant)
-    return Dialect(add=None, function=form.function, address=form.address, two_byte_count=tolerant)
+    address = (form.address or 0) & 0xFFFF  # what is sent, of whatever table
+    return Dialect(add=None, function=form.function, address=address, two_byte_count=tolerant)
 
 
 def parse(dialect: Dialect, asked: Asked | None, body: bytes) -> Answer:

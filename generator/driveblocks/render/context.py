@@ -7,7 +7,7 @@ from typing import Literal
 
 from driveblocks import __version__
 from driveblocks.maps import names
-from driveblocks.maps.form import Span, address_name, address_text, bits_text, is_bit, space_of
+from driveblocks.maps.form import Span, address_name, address_text, bits_text, is_bit, space_of, wire
 from driveblocks.maps.model import Drive, Register, Section, Value
 from driveblocks.maps.names import UNIT_NAMES, symbol
 from driveblocks.maps.plan import READ_WORDS, WRITE_WORDS, Plan, Words, dialect, holding
@@ -174,7 +174,7 @@ def refusal(drive: Drive) -> Refusal:
     if form.kind == "exception":
         return Refusal(f"function code + {form.add:02X}H and one byte.", source, add=form.add or 0)
     text = f"a reply of function {form.function:02X}H for {address_text(form.address or 0)}, whatever was asked."
-    return Refusal(text, source, function=form.function or 0, address=form.address or 0)
+    return Refusal(text, source, function=form.function or 0, address=wire(form.address or 0))
 
 
 # ---------------------------------------------------------------- decoders

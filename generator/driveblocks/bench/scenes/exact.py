@@ -83,7 +83,7 @@ def scenes(drive: Drive) -> Iterator[Scene]:
         yield scene("how old a measure is", POWER, *_young())
     yield scene("silence after a restart", POWER, *_quiet(drive))
     yield scene("when a stop is overdue", POWER, run(), *_overdue())
-    yield scene("when a status is too old", POWER, run(), *_stale())
+    yield scene("when a status is too old", POWER, run(), *_stale(drive))
     yield scene("when a start is not followed", POWER, *_follow(drive))
     yield scene("which call comes too late", POWER, *_restart())
     yield scene("a motor that ran before its command was acknowledged", *_ran())
@@ -163,12 +163,15 @@ def _overdue() -> Iterator[Step]:
     yield Step("it runs on", MS | runs_on, "Motor.StopOverdue", 6000, {".WaitedMs": _after(101, 103)})
 
 
-def _stale() -> Iterator[Step]:
-    yield Step("its status is older than StaleMs", MS | {"Pins.Settings.StaleMs": 50}, ms=60 * SCAN_MS, shows={
+def _stale(drive: Drive) -> Iterator[Step]:
+    """The status is as old as all reads of it in turn, and one other, each with the silence around it."""
+    age = max(50, 25 * sum(each.fast for each in polls(drive)))
+    yield Step("it is read more often", MS, ms=100 * SCAN_MS)
+    yield Step("its status is older than StaleMs", {"Pins.Settings.StaleMs": age}, ms=60 * SCAN_MS, shows={
         "CommOk": True, "Running": True,
     })  # fmt: skip
     yield Step("its replies are lost", {"Fate.Dumb": True}, "NOT Motor.CommOk", 2000, {
-        ".WaitedMs": _after(25, 54), "Motor.Diagnosis.StatusAgeMs": 51,
+        ".WaitedMs": _after(25, age + 4), "Motor.Diagnosis.StatusAgeMs": age + 1,
     })  # fmt: skip
 
 

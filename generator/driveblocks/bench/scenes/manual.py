@@ -47,7 +47,7 @@ def frames(drive: Drive) -> Iterator[Scene]:
         means = frame.means
         if frame.direction == "request" and _sendable(means):
             replies = [each for each in drive.frames if each.answers == frame.id]
-            yield scene(frame.id, *_asked(drive, frame, means), *_sent(frame), *_replies(means, replies))
+            yield scene(frame.id, *_asked(drive, frame, means), *_replies(means, replies))
         elif frame.answers is None and means.error is not None:
             wanted = Means(says=means.says, unit=means.unit, function=3, address=min(readable(drive)), words=1)
             yield scene(frame.id, *_asked(drive, frame, wanted), *_refused(frame))
@@ -93,19 +93,13 @@ def _asked(drive: Drive, frame: Frame, means: Means) -> Iterator[Step]:
 
 
 def _bytes(frame: Frame) -> Shows:
-    """What has just been sent, four bytes at a time."""
+    """What has just been sent, four bytes at a time; never what is printed wrong."""
     found: Shows = {f"TxCount = {len(frame.correct)}": True}
     for first in range(0, len(frame.correct), 4):
         part = frame.correct[first : first + 4]
         places = [f"SHL(BYTE_TO_DWORD(TxChars[{first + at}]), {8 * (len(part) - 1 - at)})" for at in range(len(part))]
         found[f"({' OR '.join(places)}) = {dword(int.from_bytes(part, 'big'))}"] = True
     return found
-
-
-def _sent(frame: Frame) -> Iterator[Step]:
-    """A request that was printed wrong is not what is sent."""
-    if frame.printed != frame.correct:
-        yield Step("not as it is printed", ms=20, shows={"Bus.ForeignFrames": 0})
 
 
 def _comes(data: bytes) -> Shows:

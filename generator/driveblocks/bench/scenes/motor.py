@@ -17,7 +17,7 @@ from structured_text.language.writing import word
 
 TOLD = "Seen.UntoldMs < 50"
 """The drive has just received a stop."""
-POWER = Step("power-up", until="Motor.Ready", ms=2000, shows={"Reason": "READY"}, brisk=True)
+POWER = Step("power-up", until="Motor.Ready", ms=4000, shows={"Reason": "READY"}, brisk=True)
 PINS: dict[str, str] = {does: does.title().replace("_", "") for does in MOTIONS}
 RUNNING: Shows = {"Running": True, "Reason": "RUNS", "StopConfirmed": False, "Error": False, "CommOk": True}
 STANDS: Shows = {"StopConfirmed": True, "Running": False, "Seen.Driven": False, "OutputFrequencyHz": 0.0}
@@ -56,12 +56,15 @@ _MORE = {
     "motor_temperature": 50.0, "operating_time": 100.0, "energy": 12.0, "motor_torque": 5.0,
 }  # fmt: skip
 """What else a drive can show, and its value at 30 Hz of the simulated motor."""
+_MEASURED = {"output_voltage": 240.0, "dc_bus_voltage": 540.0, "output_power": 1.25} | _MORE
+_BY_SPEED = {"output_voltage": 8.0, "output_power": 0.125, "output_speed": 6.0, "relative_power": 1.125}
+"""What goes by the frequency, which a coarse reference reaches only nearly, and how near it comes."""
 _UNMEASURED: Shows = {f"Motor.Diagnosis.{each.valid}": False for each in MEASURED.values()}
 
 
 def starts(can: Ability) -> Iterator[Scene]:
     yield scene("power-up", *_power_up(can))
-    yield scene("a run pin that is held since power-up", *_held())
+    yield scene("a run pin that is held since power-up", *_held(can))
     for does in can.motions:
         yield scene(does.replace("_", " "), POWER, *_motion(can, does))
     for does in sorted(set(PINS) - set(can.motions)):
@@ -94,16 +97,17 @@ def _power_up(can: Ability) -> Iterator[Step]:
         "Motor.Diagnosis.CanCoastStop": can.can("coast_stop"),
         "Motor.Diagnosis.CanResetFault": can.can("fault_reset"),
     }
-    yield Step("a stop is sent, though it is at standstill", {"Fate.Dumb": False}, "Motor.Ready", 3000, told)
+    yield Step("a stop is sent, though it is at standstill", {"Fate.Dumb": False}, "Motor.Ready", 5000, told)
     yield Step("nothing starts", ms=500, shows=NOTHING_STARTED | abilities | {"HardStop.HardStopOk": False})
     yield Step("the contact closes by an edge", {"Pins.HardReset": True}, ms=50, shows={"HardStop.HardStopOk": True})
 
 
-def _held() -> Iterator[Step]:
-    yield Step("it starts nothing", {"RunForward": True}, ms=1500, shows=NOTHING_STARTED | {
+def _held(can: Ability) -> Iterator[Step]:
+    yield Step("it starts nothing", {"RunForward": True}, ms=max(1500, 400 * can.turns), shows=NOTHING_STARTED | {
         "StopConfirmed": True,
     })  # fmt: skip
-    yield Step("it is released", {"RunForward": False}, "Motor.Ready", 500, {"Reason": "READY"})
+    read = max(500, 400 * can.turns)  # the settings of the drive may be among many reads
+    yield Step("it is released", {"RunForward": False}, "Motor.Ready", read, {"Reason": "READY"})
     yield run()
 
 
@@ -122,7 +126,8 @@ def _motion(can: Ability, does: str) -> Iterator[Step]:
     yield Step("it ramps up", {}, f"{STARTED} AND ({pace})", 1000 + path, {
         "Seen.Order": can.order(does), **(asked if path < 1000 else {}),
     })  # fmt: skip
-    until = f"ABS(Seen.Milli) >= {round(1000 * hertz) - 200}" if jog else "Motor.AtSpeed"
+    jogs = f"(ABS(Seen.Milli) >= {round(1000 * hertz) - 200}) AND NOT Motor.ZeroSpeed"
+    until = jogs if jog else "Motor.AtSpeed"
     shows: Shows = {
         "Running": True, "Seen.Starts": 1, "Seen.Order": can.order(does), "Error": False, "ZeroSpeed": False,
         f"ABS(Seen.Milli {opposite} {round(1000 * hertz)}) <= 200": True,
@@ -147,17 +152,14 @@ def _measured(can: Ability, *, jog: bool) -> Shows:
     """Measures at 30 Hz of the simulated motor."""
     if jog:
         return {}
-    found: Shows = {"OutputVoltageValid": can.measures("output_voltage")}
-    for what, value in (("dc_bus_voltage", 540.0), ("output_power", 1.2)):
-        if can.measures(what):
-            found[f"{MEASURED[what].name}{MEASURED[what].unit}"] = value
-    if can.measures("output_voltage"):  # 8 V for each Hz, which a coarse reference reaches only nearly
-        found["ABS(Motor.Diagnosis.OutputVoltageV - 240.0) < 8.0"] = True
-    for what, value in _MORE.items():
-        found[f"{MEASURED[what].name}{MEASURED[what].unit}"] = value if can.measures(what) else 0.0
+    found: Shows = {MEASURED["output_current"].valid: can.measures("output_current")}
+    for what in _MEASURED:
         found[MEASURED[what].valid] = can.measures(what)
-    for what in ("output_current", "dc_bus_voltage", "output_power"):
-        found[MEASURED[what].valid] = can.measures(what)
+        name = f"{MEASURED[what].name}{MEASURED[what].unit}"
+        if what in _BY_SPEED and can.measures(what):
+            found[f"ABS(Motor.Diagnosis.{name} - {_MEASURED[what]}) < {_BY_SPEED[what]}"] = True
+        elif what in _MORE or can.measures(what):
+            found[name] = _MEASURED[what] if can.measures(what) else 0.0
     return found
 
 
@@ -414,7 +416,8 @@ def _trip(can: Ability) -> Iterator[Step]:
         yield Step("what is kept at a fault was read", {}, f"Motor.Diagnosis.{MEASURED['dc_bus_voltage'].valid}", 2000)
     trips: Shows = {"Fate.Trips": can.codes[1], "Fate.Cause": True}
     coasts: Shows = {"Seen.Starts": 1, "Running": can.runs_by_speed}
-    yield Step("it trips", trips, _code_known(can), 1500, _tripped(can) | coasts)
+    both = _code_known(can) + ("" if can.runs_by_speed else " AND NOT Motor.Running")  # perhaps in two reads
+    yield Step("it trips", trips, both, 1500, _tripped(can) | coasts)
     yield Step(
         "a stop is sent, so that no run word is left", ms=500, shows={"Seen.Stops >= 2": True, "StopOverdue": False}
     )
@@ -430,7 +433,8 @@ def _trip(can: Ability) -> Iterator[Step]:
         "Seen.Starts": 2, "FaultCode": 0, "Motor.Diagnosis.FirstFaultCode": 0, "Motor.Diagnosis.FaultBack1": can.code,
     })  # fmt: skip
     other = can.codes[0] if can.code else 0
-    yield Step("the first fault since then is another", {"Fate.Trips": can.codes[0]}, ms=500 * can.turns, shows={
+    known = f"Motor.Fault AND (Motor.Diagnosis.FirstFaultCode = {other})"
+    yield Step("the first fault since then is another", {"Fate.Trips": can.codes[0]}, known, 1000 + 500 * can.turns, {
         "Motor.Diagnosis.FirstFaultCode": other, "Motor.Diagnosis.FaultBack1": other, "Fault": True,
         "Motor.Diagnosis.FaultBack2": can.code, "Motor.Diagnosis.FirstFaultMs > 200": True,
         "Motor.Diagnosis.FirstFaultMs < 3500": True,

@@ -8,6 +8,7 @@ from driveblocks.bench.scenes.drive import mark, simulated
 from driveblocks.bench.scenes.motor import NOTHING_STARTED, STANDS, run
 from driveblocks.bench.scenes.scene import More, Scene, Shows, Step, Value, scene, script, why
 from driveblocks.bench.script import SCAN_MS, Script
+from driveblocks.maps.form import space_of
 from driveblocks.maps.model import Drive
 from driveblocks.meaning.measure import own_maximum
 from driveblocks.meaning.reference import reference
@@ -114,7 +115,7 @@ def meant(drive: Drive) -> frozenset[int]:
 
 
 def idle() -> Step:
-    return Step("power-up", IDLE, "Motor.Ready", 2000, {"Reason": "READY"}, brisk=True)
+    return Step("power-up", IDLE, "Motor.Ready", 4000, {"Reason": "READY"}, brisk=True)
 
 
 def does(block: str, place: int, until: str, shows: Shows, **sets: Value) -> Iterator[Step]:
@@ -138,7 +139,8 @@ def _barred(can: Ability) -> Iterator[Step]:
     listed = readable(can.drive) | writable(can.drive)
     free = next(each for each in range(0xFFFF, 0, -1) if each not in listed)
     untouched: Shows = {"Seen.Others": 0, "Seen.Starts": 0}
-    for place in dict.fromkeys((words(can.drive).stop.last.register, reference(can.drive).register)):
+    written = (words(can.drive).stop.last.register, reference(can.drive).register)
+    for place in dict.fromkeys(each for each in written if space_of(each) == "holding"):
         owned = error("Writer", "OWNED") | untouched
         yield from does("Writer", place, "Error", owned, Given=word(1), Unknown=True)
     yield from does("Writer", free, "Error", error("Writer", "UNKNOWN_ADDRESS") | untouched, Given=word(1))

@@ -38,7 +38,7 @@ class Known:
             "function": {function.code for function in drive.functions},
         }
         self.finders: dict[str, Callable[[str], list[str]]] = {"register": self._registers, "bit": self._bits}
-        self.finders |= {name: partial(self._registers, table=name) for name in ("coil", "discrete", "input")}
+        self.finders |= {name: partial(self._in_table, table=name) for name in ("coil", "discrete", "input")}
 
     def resolve(self, refs: tuple[str, ...], place: Place, report: Report) -> list[str]:
         """The canonical names that references cover; notes one that names nothing, or that is there twice."""
@@ -74,6 +74,9 @@ class Known:
             return [f"{kind} {number:02X}H"] if number in self.codes[kind] else []
         return [f"{kind} {name}"] if name in self.names.get(kind, set()) else []
 
+    def _in_table(self, name: str, table: str) -> list[str]:
+        return self._bits(name, table) or self._registers(name, table)
+
     def _registers(self, name: str, table: str = "register") -> list[str]:
         if _ADDRESSES.fullmatch(name) is None:
             return []
@@ -84,12 +87,13 @@ class Known:
             return []
         return [references.of(row.address.first) for row in rows] or [f"{table} {name}"]
 
-    def _bits(self, name: str) -> list[str]:
+    def _bits(self, name: str, table: str = "bit") -> list[str]:
         match = _BIT.fullmatch(name)
         if match is None:
             return []
+        address = form.ADDRESS.parse(f"{form.TABLES[table]}{match[1]}H")
         low, high = int(match[2], 16), int(match[3] or match[2], 16)
-        rows = dict.fromkeys(self.drive.register_at(int(match[1], 16), use) for use in USES)
+        rows = dict.fromkeys(self.drive.register_at(address, use) for use in USES)
         bits = (bit.bit for row in rows if row for bit in row.bits)
         spans = [span for span in bits if span.first <= high and low <= span.last]
-        return [f"bit {match[1]}H.{bits_text(span)}" for span in spans]
+        return [references.of(address, f".{bits_text(span)}") for span in spans]
