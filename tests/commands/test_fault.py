@@ -42,6 +42,19 @@ PF4: dict[str, Row] = {
     "F81": (81, ("RS-485",), ("unplugged",)),
     "F122": (122, ("I/O",), ("off and on",)),
 }
+# the Altivar 312's programming guide BBV46387, from Spanish
+ATV312: dict[str, Row] = {
+    "SLF": (5, ("Modbus", "LCC"), ("bus", "remote terminal")),
+    "EPF": (8, ("outside",), ("contact",)),
+    "OCF": (9, ("drC-", "inertia", "stuck"), ("plate", "ACC")),
+    "LFF": (13, ("4 to 20 mA",), ("AI3",)),
+    "OLF": (17, ("current", "rSC"), ("ItH", "cool", "rSC")),
+    "ObF": (18, ("brakes too hard",), ("dEC", "resistor")),
+    "OPF": (20, ("phase", "contactor", "motor"), ("OPL to OAC", "UFr, UnS and nCr", "tUn")),
+    "PHF": (21, ("fuse", "one phase"), ("fuses", "reset", "three phases")),
+    "SOF": (24, ("unstable", "load drives"), ("FLG",)),
+    "SCF": (32, ("short",), ("cable", "insulation")),
+}
 
 
 def fault(*words: str) -> Result:
@@ -50,7 +63,12 @@ def fault(*words: str) -> Result:
 
 @pytest.mark.parametrize(
     ("family", "typed"),
-    [("rockwell_powerflex_525", PF525), ("rockwell_powerflex_4", PF4), ("rockwell_powerflex_400", PF4)],
+    [
+        ("rockwell_powerflex_525", PF525),
+        ("rockwell_powerflex_4", PF4),
+        ("rockwell_powerflex_400", PF4),
+        ("schneider_altivar_312", ATV312),
+    ],
 )
 def test_causes_and_remedies_say_what_the_table_says(family: str, typed: dict[str, Row]) -> None:
     known = load(catalog.folder() / f"{family}.yaml")
