@@ -38,7 +38,7 @@ PF4: dict[str, Row] = {
     "F13": (13, ("earth",), ("motor", "cable")),
     "F38": (38, ("phase U",), ("cable", "motor")),
     "F41": (41, ("U and V",), ("short", "replace")),
-    "F64": (64, ("overload",), ("load", "ramp")),
+    "F64": (64, ("above its rating",), ("load", "ramp")),
     "F81": (81, ("RS-485",), ("unplugged",)),
     "F122": (122, ("I/O",), ("off and on",)),
 }
