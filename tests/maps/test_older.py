@@ -40,7 +40,6 @@ def test_what_is_no_longer_a_word_says_what_to_write() -> None:
 RESERVED = (
     ("name: Run forward,", "name: Run forward, display: FWd,"),
     ("interface: {en: RS-485}", "interface: {en: RS-485}\n  pins: [{pin: 1, signal: A}]"),
-    ("name: Overcurrent}", "name: Overcurrent, causes: [short ramp], remedies: [{en: a longer ramp}]}"),
     ("means: frequency, source: table 1}", "means: frequency, source: table 1, printed: 0.01 Hz, rung: 2}"),
     ("{code: 03H, name: Read registers,", "{code: 03H, name: Read registers, rung: {of: 3},"),
 )
@@ -57,6 +56,6 @@ def test_keys_for_later_are_taken_and_change_nothing(tmp_path: Path) -> None:
     assert load(write(tmp_path, "", more)).prefix == "BEST"
 
 
-@pytest.mark.parametrize("wrong_key", ["pins: 1, ", "remedies: [a], ", "display: x, "])
+@pytest.mark.parametrize("wrong_key", ["pins: 1, ", "display: x, "])
 def test_elsewhere_they_are_unknown(wrong_key: str) -> None:
     assert "unknown key" in refused(BASE.replace("{code: 02H, name", f"{{{wrong_key}code: 02H, name"))[0]

@@ -13,6 +13,7 @@ from driveblocks.maps import inventory, references, rivals, trust
 from driveblocks.maps.form import address_text
 from driveblocks.maps.model import Absence, Drive, Erratum, Notice
 from driveblocks.meaning import conduct
+from driveblocks.meaning.advice import advice
 from driveblocks.meaning.measure import PINS, measures, own_maximum
 from driveblocks.meaning.polls import Poll, polls, schedule, wire_ms
 from driveblocks.meaning.quantity import quantity
@@ -278,6 +279,12 @@ def _page(drive: Drive, checked: Checked, values: Mapping[str, Any], own: Own, p
         platforms=[(one, PLATFORMS[one].title, PLATFORMS[one].drawn) for one in platforms],
         first=[each.what for each in open_ if "serial" in each.about or any("setting" in one for one in each.about)],
         errata=list(_errata(drive)),
+        faults=sorted(advice(drive), key=lambda one: one.code),
+        helped=drive.faults.help,
+        help_from=next(
+            (one.title for one in drive.documents if drive.faults.help and one.id == drive.faults.help.document),
+            "its manual",
+        ),
         cannot=[said for does, said in ABILITIES.items() if does not in words(drive).named],
         hides=[pin.name for pin in values["outputs"] if pin.idle],
         settings=settings(drive),

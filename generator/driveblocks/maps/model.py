@@ -1123,6 +1123,25 @@ class Fault(Returned):
     printed_code: Str | None = option("the code as printed, where that is wrong (needs an erratum)", "OEF")
     document: Word | None = option(_SAYS_SO, "fieldbus_guide")
     note: English | None = option("what else a person must know", "...")
+    causes: tuple[Text, ...] = option("what may have caused it, in few words", "[{en: ...}]", default=())
+    remedies: tuple[Text, ...] = option("what to do about it, in order, in few words", "[{en: ...}]", default=())
+    power_cycle: bool = option(
+        "true: no other way to clear it is named than to switch the drive off and on", "true", default=False
+    )
+
+
+@dataclass(frozen=True, kw_only=True)
+class Help(Entry):
+    """Where the causes and remedies of the codes are from."""
+
+    source: English = fact("where they are", "chapter 4, table of fault descriptions")
+    document: Word | None = option(_SAYS_SO, "fieldbus_guide")
+    keypad: Str | None = option("how the keypad shows code 0; for codes without an `id`", "F000")
+
+    def shown(self, code: int) -> str:
+        """How the keypad shows a code; empty where nobody says."""
+        head = (self.keypad or "").rstrip("0")
+        return f"{head}{code:0{len(self.keypad) - len(head)}}" if self.keypad else ""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -1158,6 +1177,7 @@ class Faults(Entry):
     )
     bits: BitRelation | None = option("relation of codes to fault bits", "{first: 0014H, last: 0016H, source: ...}")
     trip_output: TripOutput | None = option("what becomes of the motor in a trip", "{motor: coasts, source: ...}")
+    help: Help | None = option("where causes and remedies are from; a must with them", "{source: chapter 4}")
 
     def code_in(self, address: int, word: int) -> int:
         """The code in a word of a register that reports faults."""
@@ -1546,9 +1566,8 @@ RESERVED: dict[type, tuple[str, ...]] = {
     Setting: ("display",),
     Value: ("display",),
     Serial: ("pins",),
-    Fault: ("causes", "remedies"),
 }
-"""Keys that nothing reads yet: texts on the keypad, the pins of the connector, what helps against a fault."""
+"""Keys that nothing reads yet: texts on the keypad, the pins of the connector."""
 RESERVED_FACT = ("printed", "rung")
 """The same of all that has a `source`: the printed cell, and how far it can be trusted."""
 

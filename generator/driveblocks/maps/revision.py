@@ -5,27 +5,31 @@ from dataclasses import replace
 from typing import Any
 
 from driveblocks.maps.model import Drive, Entry, Worded, kept
-from driveblocks.maps.trust import MOTION, facts
+from driveblocks.maps.trust import MOTION, facts, taken
 from structured_text.language.fingerprint import fingerprint
 
 _LATER = {
     "None": "base numbering document trust differs no_address reply_delay group ram_when present_bits needs full_scale "
     "full_scale_hz warnings silent_ms coil discrete input by counts lower_limit digit stop_bits below above delivered "
-    "profile",
-    "()": "never without one_of visible_when twins twin_ranges otherwise does at_0 fed_by editions forbids",
-    "False": "negative holds",
+    "profile help",
+    "()": "never without one_of visible_when twins twin_ranges otherwise does at_0 fed_by editions forbids remedies",
+    "False": "negative holds power_cycle",
 }
 """Keys that the format has learned since the first numbers were printed, by what they are when they are left out."""
 _LEFT_OUT = re.compile(
     "|".join(f", (?:{'|'.join(keys.split())})={re.escape(is_)}(?=[,)])" for is_, keys in _LATER.items())
+    + r"|, causes=\(\)(?=, remedies=)"  # those of a fault; an error code has had its own from the first
     + "|, space=None(?:, words=None, order=None)?(?=[,)])"  # an example frame has `words` of its own
 )
 
 
 @kept
 def revision(drive: Drive) -> int:
-    """A hash of a map's facts, 32 bits: what it says in English, wherever in the file it is."""
-    return int(fingerprint([_facts(english(drive))]), 16)
+    """A hash of a map's facts, 32 bits: what it says in English, wherever in the file it is.
+
+    What helps against a fault is for a person, and no part of it.
+    """
+    return int(fingerprint([_facts(_without_help(english(drive)))]), 16)
 
 
 @kept
@@ -55,6 +59,14 @@ def _english(value: Any) -> Any:
     if isinstance(value, Worded):
         said.update(zh=None, zh_used=None, wording=None)
     return replace(value, **said)
+
+
+def _without_help(drive: Drive) -> Drive:
+    known = drive.faults
+    codes = tuple(replace(one, causes=(), remedies=(), power_cycle=False) for one in known.codes)
+    plain = replace(drive, faults=replace(known, codes=codes, help=None))
+    alone = {known.help.document if known.help else None} - {name for name, _ in taken(plain)}
+    return replace(plain, documents=tuple(one for one in drive.documents if one.id not in alone))
 
 
 def _facts(value: Any) -> str:

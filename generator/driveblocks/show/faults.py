@@ -53,6 +53,8 @@ def of_fault(drive: Drive, fault: Fault) -> Iterator[RenderableType]:
         ("printed", listed(text for text in (fault.printed_code, printed) if text)),
         ("bits", "\n".join(bits)),
         ("reported in", where),
+        ("causes", "; ".join(each.en for each in fault.causes)),
+        ("what to do", "; ".join(each.en for each in fault.remedies)),
         ("note", fault.note),
         ("source", source),
     )

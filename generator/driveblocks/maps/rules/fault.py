@@ -19,6 +19,7 @@ def check(drive: Drive, report: Report) -> None:
     for code, fault in codes.items():
         if not 1 <= code <= 0xFFFF:
             report.add(fault.place("code"), f"fault code {code}", "0 means no fault; codes are 1 to FFFFH")
+    _helped(drive, report)
     _fault_registers(drive, codes, report)
     _present(drive, report)
     if drive.faults.bits is not None:
@@ -26,6 +27,17 @@ def check(drive: Drive, report: Report) -> None:
     if drive.warnings is not None:
         _warnings(drive, drive.warnings, report)
     _errors(drive, report)
+
+
+def _helped(drive: Drive, report: Report) -> None:
+    """Note causes and remedies of which nothing says where they are from, and a place without any."""
+    faults, codes = drive.faults, (*drive.faults.codes, *drive.warning_codes)
+    helped = [one for one in codes if one.causes or one.remedies or one.power_cycle]
+    if helped and faults.help is None:
+        wrong = f"nothing says where what helps against {drive.kind_of(helped[0])} {helped[0].code:02X}H is from"
+        report.miss(helped[0].at, wrong, "add `help: {source: ...}` to `faults`")
+    if faults.help is not None and not helped:
+        report.add(faults.place("help"), "no code has causes or remedies", "add them, or remove `help`")
 
 
 def _warnings(drive: Drive, warnings: Warnings, report: Report) -> None:
