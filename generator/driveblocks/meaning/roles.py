@@ -22,7 +22,7 @@ class Roles:
     """... the frequency among it; where it has none, all of it."""
     running: Numbers
     direction: Numbers
-    """... which way it turns, where what says that it runs does not bring that."""
+    """... which way it turns, where another brings whether it runs."""
     state: Numbers
     by_bus: Numbers
     fault: Numbers
@@ -45,12 +45,13 @@ def roles(drive: Drive) -> Roles:
     def those(words: Iterable[int]) -> Numbers:
         return tuple(sorted({at[each] for each in words}))
 
+    running, turns = (those(registers(shows.shows(name))) for name in ("running", "reverse"))
     return Roles(
         fast=tuple(number for number, one in enumerate(reads, 1) if one.fast),
         proof=those(registers(shows.standstill.patterns)),
         speed=those(speed_words(drive)),
-        running=(running := those(registers(shows.shows("running")))),
-        direction=tuple(each for each in those(registers(shows.shows("reverse"))) if each not in running),
+        running=running,
+        direction=turns if any(each not in turns for each in running) else (),
         state=those(registers(each.pattern for each in shows.states)),
         by_bus=those(registers(shows.by_bus.patterns)),
         fault=those((*registers(shows.shows("fault")), *fault_words(drive))),
