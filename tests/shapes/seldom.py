@@ -1,6 +1,7 @@
 """What only some manuals say: facts of other documents, misprints, example frames, and rows of every other kind."""
 
 from collections.abc import Callable
+from typing import Any
 
 from tests.shapes.sheet import Row, Sheet, bit, hexadecimal, moved
 
@@ -149,7 +150,7 @@ def into(made: Row, section: Row, space: str, base: Callable[[str], str]) -> Non
     section["space"] = space
     own = {end for row in section["registers"] for end in row["address"].split("-")}
 
-    def renamed(shape: Shape, value: object) -> object:
+    def renamed(shape: Shape, value: Any) -> Any:
         if isinstance(shape, ListOf) and isinstance(value, list):
             return [renamed(shape.item, each) for each in value]
         if isinstance(shape, EntryOf) and isinstance(value, dict):
@@ -306,7 +307,8 @@ def memory(sheet: Sheet, made: Row, at: int) -> None:
     if area:
         made["areas"] = [areas(sheet)]
     kept = "function_codes" if area else "parameters"
-    if made["storage"]["method"] == "volatile" and (area or (kept in named and at < 0x8000 and at != 0x1000)) and sheet.maybe():
+    free = area or (kept in named and at < 0x8000 and at != 0x1000)
+    if made["storage"]["method"] == "volatile" and free and sheet.maybe():
         made["storage"] |= {"method": "ram_address_bit", "add": hexadecimal(0x8000), "area": kept}
         made["storage"] |= {"readable": False} if sheet.maybe() else {}
     if sheet.maybe(0.1):
@@ -453,7 +455,7 @@ def prose(sheet: Sheet, made: Row, shown: str) -> None:
         one.update({"about": [f"register {shown}"]} if sheet.maybe(0.3) else {})
     gap = made["absent"][0]
     ask = {"do": "look at the keypad", "ask": "what does it show"}
-    ways = ({"read": shown}, {"by_run": True}, {})
+    ways: tuple[Row, ...] = ({"read": shown}, {"by_run": True}, {})
     gap |= {"on_site": ask | sheet.chance.choice(ways)} if sheet.maybe(0.3) else {}
     for row in sheet.shown:
         if row.get("name") == "Output current" and "scale" not in row:
