@@ -266,7 +266,7 @@ def status_word(sheet: Sheet, at: int) -> None:
 def measures(sheet: Sheet, at: int) -> list[Row]:
     """The output frequency, and some others, in any order."""
     found, place = [], at
-    kinds = ["output_frequency", *sheet.chance.sample(sorted(UNITS), sheet.chance.randint(0, 6))]
+    kinds = ["output_frequency", *sheet.chance.sample(sorted(UNITS), min(sheet.chance.randint(0, 6), 5))]
     sheet.chance.shuffle(kinds)
     for kind in kinds:
         name, unit, factor = UNITS.get(kind, ("Output frequency", "Hz", sheet.chance.choice((0.01, 0.1))))

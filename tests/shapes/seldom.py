@@ -1,6 +1,7 @@
 """What only some manuals say: facts of other documents, misprints, example frames, and rows of every other kind."""
 
 from collections.abc import Callable
+from typing import Any
 
 from tests.shapes.sheet import Row, Sheet, bit, hexadecimal, moved
 
@@ -97,7 +98,7 @@ class Dress:
 
     def _often(self, cls: type, part: float) -> float:
         """A chance; less of what there is many of."""
-        return part / 5 if cls in MANY else min(part * (3 if cls in FEW else 1), 0.9)
+        return part / 5 if cls in MANY else max(3 * part, 0.4) if cls in FEW else part
 
     def _document(self, name: str, **keys: str) -> str:
         said = {"id": name, "title": "Another guide", "publisher": "Drawn"} | keys
@@ -121,7 +122,7 @@ class Dress:
             rows["symbol"] = f"Own{self.symbols}"
         if cls is model.Frame and (rows["printed"] != rows["correct"] or "printed" in rows.get("plc", {})):
             self._misprinted(about)
-        if printed := self._printed(cls, rows, 2 * part if cls is model.Bit and "id" in rows else part):
+        if printed := self._printed(cls, rows, 0.4 if cls is model.Bit and "id" in rows else part):
             rows |= printed
             self._misprinted(about)
 
@@ -149,7 +150,7 @@ def into(made: Row, section: Row, space: str, base: Callable[[str], str]) -> Non
     section["space"] = space
     own = {end for row in section["registers"] for end in row["address"].split("-")}
 
-    def renamed(shape: Shape, value: object) -> object:
+    def renamed(shape: Shape, value: Any) -> Any:
         if isinstance(shape, ListOf) and isinstance(value, list):
             return [renamed(shape.item, each) for each in value]
         if isinstance(shape, EntryOf) and isinstance(value, dict):
@@ -258,7 +259,7 @@ def modes(sheet: Sheet, serial: Row) -> None:
 def settings(sheet: Sheet, made: Row) -> None:
     """What settings may have beside."""
     for one in sheet.settings:
-        if sheet.maybe(0.1) and "default" in one and "values" not in one and not in_choice(made["serial"], one["id"]):
+        if sheet.maybe(0.2) and "default" in one and "values" not in one and not in_choice(made["serial"], one["id"]):
             one["editions"] = [{"edition": f"V{number}", "default": str(number), "source": "page 3"}
                                for number in (1, 2)]  # fmt: skip
             one.setdefault("needed", {"why": "it differs by edition"})
@@ -302,11 +303,12 @@ def parameters(sheet: Sheet, made: Row, at: int) -> None:
 def memory(sheet: Sheet, made: Row, at: int) -> None:
     """A bit of the address that keeps writes in RAM; an area of parameters that the manual gives by a rule."""
     named = {each["id"] for each in made["sections"]}
-    area = sheet.maybe(0.3)
+    area = sheet.maybe(0.4)
     if area:
         made["areas"] = [areas(sheet)]
     kept = "function_codes" if area else "parameters"
-    if made["storage"]["method"] == "volatile" and (area or (kept in named and at < 0x8000)) and sheet.maybe():
+    free = area or (kept in named and at < 0x8000 and at != 0x1000)
+    if made["storage"]["method"] == "volatile" and free and sheet.maybe():
         made["storage"] |= {"method": "ram_address_bit", "add": hexadecimal(0x8000), "area": kept}
         made["storage"] |= {"readable": False} if sheet.maybe() else {}
     if sheet.maybe(0.1):
@@ -319,7 +321,7 @@ def areas(sheet: Sheet) -> Row:
     row = sheet.named("Function codes", id="function_codes", addresses=f"{sheet.place(0)}-{sheet.place(0x7F)}")
     row |= {"numbered_by": sheet.chance.choice(("sequence_number", "parameter_number")), "access": "rw"}
     row |= {"source": "section 6", "examples": [example]}
-    if sheet.maybe():
+    if sheet.maybe(0.8):
         row["excluded"] = [sheet.named("Group of the maker", ids="P9")]
     return row
 
@@ -453,7 +455,7 @@ def prose(sheet: Sheet, made: Row, shown: str) -> None:
         one.update({"about": [f"register {shown}"]} if sheet.maybe(0.3) else {})
     gap = made["absent"][0]
     ask = {"do": "look at the keypad", "ask": "what does it show"}
-    ways = ({"read": shown}, {"by_run": True}, {})
+    ways: tuple[Row, ...] = ({"read": shown}, {"by_run": True}, {})
     gap |= {"on_site": ask | sheet.chance.choice(ways)} if sheet.maybe(0.3) else {}
     for row in sheet.shown:
         if row.get("name") == "Output current" and "scale" not in row:
