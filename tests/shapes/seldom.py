@@ -362,7 +362,6 @@ def numbers(sheet: Sheet, made: Row) -> None:
         stands["below"] = sheet.chance.choice((1, 5))
     if sheet.maybe(0.2) and "below" not in stands:
         status["running"]["any"].append({"register": stands["register"], "above": 0})
-        operation["status"].remove(status["reverse"])  # it may be in another read than what says that it runs
     if sheet.maybe(0.1):
         operation["status"].append({"shows": "zero_speed", "any": [{"register": stands["register"], "below": 1}],
                                     "source": "table 2"})  # fmt: skip
