@@ -43,8 +43,8 @@ def _watchdog(drive: Drive, own: Watchdog) -> Iterator[str]:
         fed = f"writes to {', '.join(map(address_text, own.fed_by))} alone"
     open_ = [*(["after how long"] if time is None else []), *(["what feeds the watchdog"] if fed is None else [])]
     if time is not None:
-        where = time.setting if time.setting is not None else address_text(time.register or 0)
-        yield f"after {where} x {time.count_ms} ms"
+        by = setting(drive, time.setting)
+        yield f"after {_shown(by)}" if by else f"after {address_text(time.register or 0)} x {time.count_ms} ms"
     if fed is not None:
         yield f"fed by {fed}"
     if own.counts is not None:
@@ -55,10 +55,15 @@ def _watchdog(drive: Drive, own: Watchdog) -> Iterator[str]:
         yield own.note
 
 
+def _shown(by: Setting) -> str:
+    """A time at the keypad: A106, 0.1 to 60.0 s."""
+    return f"{by.keypad.code}, {by.allowed or f'in {by.keypad.unit}'}"
+
+
 def _reaction(value: int | None, does: str, chosen: Setting | None) -> str:
     if chosen is None:
         return _DOES[does]
-    factory = " (factory)" if chosen.default == str(value) else ""
+    factory = " (factory)" if chosen.factory == value else ""
     return f"{value} {chosen.named(value).lower()}".strip() + f"{factory}: {_DOES[does]}"
 
 

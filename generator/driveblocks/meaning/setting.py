@@ -129,7 +129,7 @@ def settings(drive: Drive) -> tuple[Setting, ...]:
             needed=Needed(one.needed.right, one.needed.by_terminals, one.needed.why) if one.needed else None,
             shown_while=tuple((each.setting, each.value) for each in one.visible_when),
             note=one.note or "",
-            keypad=_keypad(drive, one),
+            keypad=keypad_of(drive, one),
             group=_group(drive, one),
         )
         for one in drive.settings
@@ -148,7 +148,7 @@ def in_order(drive: Drive) -> tuple[Setting, ...]:
     return tuple(sorted(settings(drive), key=lambda one: (GROUPS.index(one.group), place.get(one.id, len(place)))))
 
 
-def _keypad(drive: Drive, one: model.Setting) -> Keypad:
+def keypad_of(drive: Drive, one: model.Setting) -> Keypad:
     """As the map says; the scale of a time that it does not say as the watchdog has it."""
     own = one.display
     unit, factor = (own.unit or "", own.factor) if own else ("", None)
