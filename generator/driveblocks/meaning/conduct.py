@@ -63,7 +63,7 @@ def _shown(by: Setting) -> str:
 def _reaction(value: int | None, does: str, chosen: Setting | None) -> str:
     if chosen is None:
         return _DOES[does]
-    factory = " (factory)" if chosen.factory == value else ""
+    factory = " (factory)" if chosen.default == str(value) else ""
     return f"{value} {chosen.named(value).lower()}".strip() + f"{factory}: {_DOES[does]}"
 
 
