@@ -17,7 +17,7 @@ from driveblocks.render.environment import render
 BLANK = "______"
 """Where a person writes."""
 LONG = 90
-"""A longer list of values is not repeated in a cell."""
+"""A longer list of values is not repeated on a sheet."""
 DAY_S = 86400
 """No watchdog counts as long."""
 TITLES = dict(zip(GROUPS, ("Access level", "Who commands, and how the motor runs", "Address, rate, format",
@@ -107,7 +107,7 @@ def _open(drive: Drive, one: Setting, *, filled: bool) -> str:
     if one.needed is None:
         return "as delivered"
     own = watchdog(drive)
-    said = one.allowed if len(one.allowed) < LONG else "one of its values"
+    said = one.allowed if len(one.allowed) < LONG or not filled else "one of its values"
     if own and own.chosen_by == one.id:
         stops = [value for value, does in own.reactions if value is not None and does != "runs_on"]
         said = " or ".join(map(one.said_of, stops)) or said
