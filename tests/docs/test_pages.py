@@ -164,8 +164,8 @@ def test_the_page_says_what_the_keypad_hides_and_that_a_drive_answers_nobody_at_
     files = [*generic(LANGUAGES), *library_of("one", drive, LANGUAGES)]
     text = documents(files, [drive])["docs/TWO_Drive.md"]
     assert "unit addresses 1 to 247. **As delivered the drive\nanswers nobody**: set P3.00 first." in text
-    assert "| P3.00 Unit address | the address that the PLC uses | 0 | shown only while P0.03 = 3 |" in text
-    assert "| P3.01 Run command from | **1** Bus or **2** Bus and keypad: run commands come from the bus |" in text
+    assert "| the address that the PLC uses; shown only while P0.03 = 3 |" in text
+    assert "| P3.01 Run command from | **1 = Bus** or **2 = Bus and keypad** |" in text
     assert "P3.01 (run command from) = 1 or 2" not in text  # no setting chooses the terminals
     set_already = replace(drive, serial=replace(drive.serial, unit=replace(drive.serial.unit, default=1)))
     text = documents(files, [set_already])["docs/TWO_Drive.md"]

@@ -132,4 +132,3 @@ def test_the_command_prints_it_and_refuses_what_is_no_address() -> None:
     assert "| stops the motor | 06 | 2000H | 8193 | 48193 | 0001H = 1 | `03 06 20 00 00 01 42 28` |" in run.output
     wrong = CliRunner().invoke(app, ["sheet", "pf525", "--master", "--address", "248"])
     assert (wrong.exit_code, "1 to 247" in wrong.output) == (2, True)
-    assert CliRunner().invoke(app, ["sheet", "pf525"]).exit_code == 2

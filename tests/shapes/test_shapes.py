@@ -305,8 +305,8 @@ def test_show_lists_what_the_drive_does_by_itself_and_says_of_itself(tmp_path: P
     page = " ".join(run("cia402", tmp_path, "show", "MAP").split())
     assert (
         "cable cut P3.02 = 0 ignore: the motor runs on, 1 coast stop (factory): the motor coasts, 2 fallback speed: "
-        "the motor changes to another speed; P3.01 = 0: the motor runs on, whatever else is set; after P3.01 x 100 ms; "
-        "fed by any good frame; it does not start again by itself (section 1)"
+        "the motor changes to another speed; P3.01 = 0: the motor runs on, whatever else is set; "
+        "after P3.01, 0.0 to 60.0 s; fed by any good frame; it does not start again by itself (section 1)"
     ) in page
     assert "trip the output is switched off and the motor coasts (table 3)" in page
     assert "bus commands while 2000H bit 9 = 1 (table 2)" in page

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from math import ceil
 from typing import Any
 
-from driveblocks.docs import bus, chain, ladder, network, states, sto, timing
+from driveblocks.docs import bus, chain, keypad, ladder, network, states, sto, timing
 from driveblocks.docs.members import members
 from driveblocks.docs.pins import Pin, pins
 from driveblocks.maps import inventory, references, rivals, trust
@@ -288,6 +288,7 @@ def _page(drive: Drive, checked: Checked, values: Mapping[str, Any], own: Own, p
         cannot=[said for does, said in ABILITIES.items() if does not in words(drive).named],
         hides=[pin.name for pin in values["outputs"] if pin.idle],
         settings=settings(drive),
+        keypad=keypad.rows(drive),
         run_sources=[each for each in settings(drive) if each.needed and each.needed.by_terminals is not None],
         stay=[each for each in settings(drive) if _stays(each)],
         hazards=[each for each in drive.notices if _matters(each)],

@@ -217,6 +217,7 @@ class Value(Returned):
     """One value of an enumeration."""
 
     value: Number = fact("the number on the wire or on the keypad", "1")
+    display: Str | None = option("of a keypad setting, what the keypad shows where that is not the number", '"19.2"')
     does: tuple[Act, ...] = option(
         f"of a command register, what the value does to the motor, all of it; {_ACTS}; a value but 0 that does not say "
         "it counts as starting",
@@ -283,6 +284,20 @@ class Edition(Entry):
 
 
 @dataclass(frozen=True, kw_only=True)
+class Display(Entry):
+    """A setting as the keypad shows it, where that is not its id and the number on the wire."""
+
+    code: Str | None = option("what the keypad calls it, where that is not the id", "tbr")
+    menu: English | None = option("where it is in the menu", "COM-, communication")
+    unit: Str | None = option("unit of what is shown; of a time always `s`", "s")
+    factor: Factor | None = option(
+        "what one count on the wire is in this unit, with the decimals that the keypad shows", "0.1"
+    )
+    digits: Count | None = option("the least number of digits that it shows: 2 where 3 is 03", "2")
+    hexadecimal: bool = option("whether a number is entered in hexadecimal: 31 as 1F", "true", default=False)
+
+
+@dataclass(frozen=True, kw_only=True)
 class Setting(Named):
     """A parameter that a person sets on the keypad for communication."""
 
@@ -290,6 +305,7 @@ class Setting(Named):
     source: English = fact("where the manual says so", "table of communication parameters")
     document: Word | None = option(_SAYS_SO, "fieldbus_guide")
     register: Address | None = option("its register, where the manual lists one", "041DH")
+    display: Display | None = option("the setting as the keypad shows it", "{menu: COM-, unit: s, factor: 0.1}")
     range: Range | None = option("allowed numbers", "{min: 0, max: 4}")
     unit_step: Number | None = option("smallest step", "1")
     default: Str | None = option("factory setting as printed", '"3"')
@@ -1563,11 +1579,9 @@ class Drive(Entry):
 
 
 RESERVED: dict[type, tuple[str, ...]] = {
-    Setting: ("display",),
-    Value: ("display",),
     Serial: ("pins",),
 }
-"""Keys that nothing reads yet: texts on the keypad, the pins of the connector."""
+"""Keys that nothing reads yet: the pins of the connector."""
 RESERVED_FACT = ("printed", "rung")
 """The same of all that has a `source`: the printed cell, and how far it can be trusted."""
 

@@ -4,14 +4,14 @@ import re
 from dataclasses import replace
 from typing import Any
 
-from driveblocks.maps.model import Drive, Entry, Worded, kept
+from driveblocks.maps.model import Drive, Entry, Setting, Value, Worded, kept
 from driveblocks.maps.trust import MOTION, facts, taken
 from structured_text.language.fingerprint import fingerprint
 
 _LATER = {
     "None": "base numbering document trust differs no_address reply_delay group ram_when present_bits needs full_scale "
     "full_scale_hz warnings silent_ms coil discrete input by counts lower_limit digit stop_bits below above delivered "
-    "profile help",
+    "profile help display",
     "()": "never without one_of visible_when twins twin_ranges otherwise does at_0 fed_by editions forbids remedies",
     "False": "negative holds power_cycle",
 }
@@ -43,7 +43,7 @@ def checked(drive: Drive) -> int:
 
 @kept
 def english(drive: Drive) -> Drive:
-    """A map without a word in another language."""
+    """A map without a word in another language, and without the looks of a keypad."""
     plain: Drive = _english(drive)
     return plain
 
@@ -58,6 +58,8 @@ def _english(value: Any) -> Any:
     said: dict[str, Any] = {name: _english(each) for name, each in inner.items()}
     if isinstance(value, Worded):
         said.update(zh=None, zh_used=None, wording=None)
+    if isinstance(value, (Setting, Value)):
+        said.update(display=None)
     return replace(value, **said)
 
 

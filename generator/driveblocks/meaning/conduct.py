@@ -43,8 +43,8 @@ def _watchdog(drive: Drive, own: Watchdog) -> Iterator[str]:
         fed = f"writes to {', '.join(map(address_text, own.fed_by))} alone"
     open_ = [*(["after how long"] if time is None else []), *(["what feeds the watchdog"] if fed is None else [])]
     if time is not None:
-        where = time.setting if time.setting is not None else address_text(time.register or 0)
-        yield f"after {where} x {time.count_ms} ms"
+        by = setting(drive, time.setting)
+        yield f"after {_shown(by)}" if by else f"after {address_text(time.register or 0)} x {time.count_ms} ms"
     if fed is not None:
         yield f"fed by {fed}"
     if own.counts is not None:
@@ -53,6 +53,11 @@ def _watchdog(drive: Drive, own: Watchdog) -> Iterator[str]:
         yield f"{UNKNOWN} {' nor '.join(open_)}"
     if own.note is not None:
         yield own.note
+
+
+def _shown(by: Setting) -> str:
+    """A time at the keypad: A106, 0.1 to 60.0 s."""
+    return f"{by.keypad.code}, {by.allowed or f'in {by.keypad.unit}'}"
 
 
 def _reaction(value: int | None, does: str, chosen: Setting | None) -> str:

@@ -19,6 +19,8 @@ from driveblocks.maps.model import (
 )
 from driveblocks.meaning import conduct
 from driveblocks.meaning.serial import PARITIES
+from driveblocks.meaning.setting import Keypad, in_order, keypad_of
+from driveblocks.meaning.setting import setting as setting_of
 from driveblocks.show.errata import corroborated
 from driveblocks.show.faults import recorded
 from driveblocks.show.layout import both, card, choices, code_text, facts, heading, listed
@@ -150,23 +152,27 @@ def tolerances(drive: Drive) -> Iterator[RenderableType]:
 
 
 def settings(drive: Drive) -> Iterator[RenderableType]:
+    """The settings in the order in which a person meets them."""
     needed = sum(setting.needed is not None for setting in drive.settings)
     yield heading(f"Keypad settings: {len(drive.settings)}, of which the drive needs {needed} before it listens")
-    for setting in drive.settings:
-        yield of_setting(drive, setting)
+    by_id = {one.id: one for one in drive.settings}
+    for one in in_order(drive):
+        yield of_setting(drive, by_id[one.id])
 
 
 def of_setting(drive: Drive, setting: Setting) -> RenderableType:
-    values = [(str(value.value), value.name, value.own, value.note or "") for value in setting.values]
+    keypad = keypad_of(drive, setting)
+    values = [(_number(keypad, value.value), value.name, value.own, value.note or "") for value in setting.values]
     return card(
         f"{setting.id}  {both(setting.name, setting.own)}",
-        ("needed", _needed(setting)),
+        ("needed", _needed(setting, keypad)),
+        ("keypad", _keypad(setting, keypad)),
         ("shown while", listed(f"{each.setting} = {each.value}" for each in setting.visible_when) or None),
         ("printed", setting.zh if setting.zh_used else None),
         ("register", address_text(setting.register) if setting.register is not None else None),
-        ("range", f"{setting.range.min} to {setting.range.max}" if setting.range else None),
+        ("range", _range(setting, keypad)),
         ("step", setting.unit_step),
-        ("factory", setting.default or _editions(setting)),
+        ("factory", _factory(drive, setting)),
         ("values", choices(values)),
         ("note", setting.note),
         ("also says", corroborated(drive, setting.corroborated)),
@@ -174,14 +180,43 @@ def of_setting(drive: Drive, setting: Setting) -> RenderableType:
     )
 
 
+def _range(setting: Setting, keypad: Keypad) -> str | None:
+    bounds = setting.range
+    return f"{keypad.plain(bounds.min)} to {keypad.shown(bounds.max)}" if bounds else None
+
+
+def _keypad(setting: Setting, keypad: Keypad) -> str | None:
+    """What it is called there, where in the menu, and how it shows numbers, as far as that differs."""
+    said = [keypad.code] if keypad.code != setting.id else []
+    said += [f"in the menu {keypad.menu}"] if keypad.menu else []
+    said += ["in hexadecimal"] if keypad.hexadecimal else []
+    said += [f"in {keypad.unit}"] if keypad.unit else []
+    said += [f"a count on the bus is {keypad.shown(1)}"] if keypad.factor is not None else []
+    return "; ".join(said) or None
+
+
+def _number(keypad: Keypad, number: int) -> str:
+    """What the keypad shows for a number, and the number on the bus where that is another."""
+    shown = keypad.shown(number)
+    return shown if shown == str(number) else f"{shown} ({number} on the bus)"
+
+
+def _factory(drive: Drive, setting: Setting) -> str | None:
+    known = setting_of(drive, setting.id)
+    number = known.factory if known else None
+    if known is None or number is None:
+        return setting.default or _editions(setting)
+    return _number(known.keypad, number)
+
+
 def _editions(setting: Setting) -> str | None:
     return " or ".join(f"{each.default} ({each.edition}, {each.source})" for each in setting.editions) or None
 
 
-def _needed(setting: Setting) -> str | None:
+def _needed(setting: Setting, keypad: Keypad) -> str | None:
     if setting.needed is None:
         return None
     needed = setting.needed
-    value = f"{' or '.join(map(str, needed.right))}: " if needed.right else ""
-    other = "" if needed.by_terminals is None else f" ({needed.by_terminals}: from the drive's terminals)"
+    value = f"{' or '.join(map(keypad.shown, needed.right))}: " if needed.right else ""
+    other = "" if needed.by_terminals is None else f" ({keypad.shown(needed.by_terminals)}: from the drive's terminals)"
     return f"{value}{needed.why}{other}"

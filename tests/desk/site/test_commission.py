@@ -26,6 +26,7 @@ from driveblocks.desk.site.session import Wish, commission
 from driveblocks.maps.model import Condition, Identity
 from driveblocks.maps.problem import MapError
 from driveblocks.meaning.polls import polls
+from driveblocks.meaning.setting import in_order
 from driveblocks.modbus.frame import opened, seal
 from structured_text import files
 
@@ -259,7 +260,7 @@ def test_a_refused_span_is_named_and_the_rest_is_done() -> None:
 
 @pytest.mark.parametrize("stem", MAPS)
 def test_what_differs_at_the_keypad_is_read_or_asked(stem: str) -> None:
-    ids = [each.id for each in MAPS[stem].settings if each.needed]
+    ids = [each.id for each in in_order(MAPS[stem]) if each.needed]
     person = Person({"alone": "alone", "keypad": ", ".join(ids).lower()})
     found = went(Line([drive(stem)]), stem, person, rate=9600, form="8N1", mode="rtu", unit=1)
     read = [each for each in found.settings if each.read is not None]

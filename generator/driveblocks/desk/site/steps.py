@@ -16,7 +16,7 @@ from driveblocks.desk.site.talk import EndedError, Talk, ended
 from driveblocks.maps.form import Span, address_text
 from driveblocks.maps.model import Absence, Drive
 from driveblocks.maps.plan import most, plan
-from driveblocks.meaning.setting import Setting, settings
+from driveblocks.meaning.setting import Setting, in_order, settings
 from driveblocks.show.layout import table
 
 READS = 200
@@ -36,7 +36,7 @@ ASKED = 3
 def keypad(talk: Talk, asker: Asker, found: Found) -> None:
     """Read back what can be read of what must be set, and ask once for the rest. Raises EndedError."""
     allowed = plan(talk.drive).readable
-    for each in settings(talk.drive):
+    for each in in_order(talk.drive):
         if each.needed is None:
             continue
         readable = each.register is not None and any(each.register in span for span in allowed)
@@ -52,7 +52,8 @@ def keypad(talk: Talk, asker: Asker, found: Found) -> None:
         if each.shown_while:
             asker.say(f"{each.id} is shown only while {_conditions(each)}")
     for one in (each for each in found.settings if each.differs):
-        asker.say(f"{one.id} is {one.read} and must be {' or '.join(map(str, one.must))}: set it at the keypad")
+        is_, must = named(known[one.id], one.read), _right(known[one.id], one.must)
+        asker.say(f"{known[one.id].keypad.code} is {is_} and must be {must}: set it at the keypad")
     if not any(each.read is None for each in found.settings):
         return
     differing = _differing(asker, {each.id for each in found.settings})
@@ -83,7 +84,7 @@ def _differing(asker: Asker, ids: Collection[str]) -> set[str] | None:
 
 def named(setting: Setting, number: int | None) -> str:
     """A value as the keypad has it, with its name."""
-    return "" if number is None else f"{number} {setting.named(number)}".strip()
+    return "" if number is None else setting.said_of(number)
 
 
 def _right(setting: Setting, numbers: Collection[int]) -> str:

@@ -26,6 +26,7 @@ _NOTATION = re.compile(r"\b([78])\W{0,3}([NEO])\W{0,3}([12])\b")
 _PARITIES = {"N": "none", "E": "even", "O": "odd"}
 _RATE = re.compile(r"[0-9]{3,}")
 _MODE = re.compile(r"\b(rtu|ascii)\b", re.IGNORECASE)
+_MS = {"s": 1000, "ms": 1}
 _PARITY_WORDS = (("无校验", "none"), ("偶校验", "even"), ("奇校验", "odd"))
 
 
@@ -40,6 +41,7 @@ def check(drive: Drive, report: Report) -> None:
         _alternatives(setting, report)
         _editions(setting, report)
         _visible(setting, settings, report)
+        _display(drive, setting, report)
         _register(drive, setting, registers.get(setting.id), report)
     if drive.profile is not None:
         _profile(drive, drive.profile, report)
@@ -145,6 +147,24 @@ def _visible(setting: Setting, settings: Mapping[str, Setting], report: Report) 
             report.add(each.place("setting"), wrong, "name a setting that the keypad shows without it")
         elif wrong := _impossible(other, each.value):
             report.miss(each.place("value"), f"shown while it is {each.value}, but {wrong}", "correct one of them")
+
+
+def _display(drive: Drive, setting: Setting, report: Report) -> None:
+    """Note texts that no person can tell apart, and a scale that has no unit or that the watchdog does not have."""
+    texts = [each for each in setting.values if each.display is not None]
+    unique(texts, "display", f"{setting.id}: display", report, str)
+    own = setting.display
+    if own is None or own.factor is None:
+        return
+    if own.unit is None or own.factor <= 0:
+        wrong = f"the keypad shows {setting.id} on a scale of {own.factor} without a unit, or not above 0"
+        report.miss(own.place("factor"), wrong, "add `unit: s`, and what one count is in it")
+    time, delay = drive.watchdog.time if drive.watchdog else None, drive.serial.reply_delay
+    for each in (time, delay):
+        counted = own.factor * _MS.get(own.unit or "", 0)
+        if each and each.setting == setting.id and counted and counted != each.milliseconds:
+            wrong = f"a count of {setting.id} is {counted.normalize():f} ms here, and {each.milliseconds} ms elsewhere"
+            report.add(own.place("factor"), wrong, "the manual's table decides which of the two is wrong")
 
 
 def _waits_for(first: str, settings: Mapping[str, Setting]) -> set[str]:

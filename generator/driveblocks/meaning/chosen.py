@@ -1,0 +1,67 @@
+"""The numbers that the settings of a line must have for a unit address, a bit rate and a character."""
+
+from collections.abc import Iterator
+
+from driveblocks.maps.model import BaudChoice, Drive, FormatChoice, ModeChoice, StopBitsChoice
+from driveblocks.meaning.serial import PARITIES, Character, serial
+from driveblocks.meaning.setting import setting
+
+Choice = ModeChoice | BaudChoice | FormatChoice | StopBitsChoice
+
+
+def chosen(drive: Drive, unit: int, rate: int, character: Character) -> dict[str, int]:
+    """Setting -> number; a setting that cannot be so is left out."""
+    found = {drive.serial.unit.setting: unit} if drive.serial.unit.setting else {}
+    for id_ in dict.fromkeys(each.setting for each in _choices(drive) if each.setting):
+        some = [(each, list(_codes(drive, each, rate, character))) for each in _choices(drive) if each.setting == id_]
+        number = _number(drive, id_, some)
+        if number is not None:
+            found[id_] = number
+    return found
+
+
+def rates(drive: Drive) -> tuple[int, ...]:
+    """The bit rates that a drive has; none where its map lists none."""
+    return tuple(sorted(serial(drive).rates))
+
+
+def forms(drive: Drive) -> tuple[str, ...]:
+    """The characters that a drive has in the framing that is used; none where its map lists none."""
+    found = dict.fromkeys(each for each in serial(drive).characters)
+    asked = {each.setting for each in (drive.serial.format, drive.serial.stop_bits) if each and each.setting}
+    return tuple(each.form for each in found if asked <= chosen(drive, 1, serial(drive).rate, each).keys())
+
+
+def _choices(drive: Drive) -> list[Choice]:
+    line = drive.serial
+    return [each for each in (line.mode, line.baud, line.format, line.stop_bits) if each is not None]
+
+
+def _codes(drive: Drive, choice: Choice, rate: int, character: Character) -> Iterator[int]:
+    """The codes of a setting that choose what is wanted."""
+    mode = "ascii" if serial(drive).ascii else "rtu"
+    for each in choice.codes:
+        wanted = (
+            ("mode", mode),
+            ("baud", rate),
+            ("data_bits", character.data),
+            ("stop_bits", character.stops),
+        )
+        alike = all(getattr(each, key, None) in (None, value) for key, value in wanted)
+        if each.code is not None and alike and PARITIES.get(getattr(each, "parity", ""), "?") in "?" + character.parity:
+            yield each.code
+
+
+def _number(drive: Drive, id_: str, some: list[tuple[Choice, list[int]]]) -> int | None:
+    """One number for all that a setting chooses: each by a digit of its own, or all by the same code."""
+    if any(not codes for _, codes in some):
+        return None
+    if not any(choice.digit for choice, _ in some):
+        alike = set.intersection(*(set(codes) for _, codes in some))
+        return min(alike, default=None)
+    own = setting(drive, id_)
+    number = (own.factory if own else None) or 0
+    for choice, codes in some:
+        digit = choice.digit or 1
+        number += (codes[0] - number // digit % 10) * digit
+    return number
