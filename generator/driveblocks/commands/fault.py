@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 @click.argument("drive", metavar="DRIVE", help="Name of a shipped drive, a part of it, or the path of a map.")
 @click.argument("code", metavar="CODE", help="As the keypad shows it, or as the bus gives it: 30, 1EH or 0x1E.")
 def run(drive: str, code: str) -> None:
-    """Say what a fault is, what may have caused it, what helps, and how it is cleared.
+    """Say what a fault means, what helps, and what clears it.
 
     Causes and remedies are from the maker's table, in other words, where it was read. The exit
     status is 2 for a code that the drive does not have, with the nearest.
