@@ -322,9 +322,9 @@ class Line:
         for at in self.dying:
             took = h.seen(at).overdue_at - self.died_us
             part = took / (US * self.cut_ms) if h.seen(at).overdue_at >= 0 else NEVER
-            all_ = len(self.gone) == len(self.models)
-            out.most("all cut" if all_ else "cut", part)
-            if part > (1 if all_ else SOME_DEAD):
+            nobody = len(self.gone) == len(self.models) and self.draw.how != "mixed"  # where some refuse, they answer
+            out.most("all cut" if nobody else "cut", part)
+            if part > (1 if nobody else SOME_DEAD):
                 out.tell("cut", f"{self.draw.families[at]} {at + 1}: overdue after {part:.2f} x {self.cut_ms} ms")
         if h.library.short_silences.value:
             out.tell("silence", f"{h.library.short_silences.value} requests too early")
