@@ -91,3 +91,14 @@ def test_the_repeated_stop_of_a_dead_drive_waits_for_nobodys_late_reply() -> Non
     bench.drives[2].answer = answer
     stops = [each.ms for each in bench.run(60_000) if each.stop and each.unit == 1]
     assert max(later - first for first, later in pairwise(stops)) < 1500
+
+
+def test_a_first_read_that_is_refused_leaves_others_their_reads() -> None:
+    """A drive that refused what is read before its first stop was asked three times of four, one neighbour never."""
+    bench = Bench(Config(drives=3)).ready()
+    bench.drives[0].answer = lambda request: request[:1] + bytes([request[1] | 0x80, 2])
+    bench.put(0, PollFirst=True)
+    before = len(bench.sent)
+    bench.run(4000)
+    asked = Counter(each.unit for each in bench.sent[before:])
+    assert min(asked[unit] for unit in (1, 2, 3)) > max(asked.values()) // 2, asked

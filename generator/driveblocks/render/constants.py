@@ -104,6 +104,7 @@ NUMBERS = {
     "FOUND_REPLY": (1, "a frame that may be a reply"),
     "FOUND_REQUEST": (2, "a request of another master"),
     "FOUND_LATE": (3, "the reply to the last request, after its time"),
+    "REFUSED_MOST": (4, "so many first polls that are refused in a row go before the reads of others"),
     "FOUND_EITHER": (4, "a request of another master, or the reply of a drive whose byte count has two bytes"),
     "ECHO_UNKNOWN": (0, "it is not known whether the port hears its own characters"),
     "ECHO_NONE": (1, "it does not"),
