@@ -185,7 +185,7 @@ PLUGS: tuple[Row, ...] = (
     {},
     {"connector": "rj45", "pins": [{"pin": "4", "label": "RS+", "wire": "positive"}, {"pin": "5", "wire": "negative"}],
      "termination": "120 ohm by S2", "bias": "in the master", "shield": "on earth", "never": ["use pin 7"]},
-    {"connector": "terminals", "pins": [{"pin": "T1", "wire": "data"}, {"pin": "T2", "wire": "data"}]},
+    {"connector": "terminals", "pins": [{"pin": "T1", "wire": "negative"}, {"pin": "T2", "wire": "positive"}]},
 )  # fmt: skip
 """Where the line is connected, by the last unit address."""
 

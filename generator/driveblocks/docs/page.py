@@ -15,7 +15,7 @@ from driveblocks.maps.model import Absence, Drive, Erratum, Notice
 from driveblocks.meaning import conduct
 from driveblocks.meaning.advice import advice
 from driveblocks.meaning.measure import PINS, measures, own_maximum
-from driveblocks.meaning.plug import UNKNOWN, plug
+from driveblocks.meaning.plug import plug
 from driveblocks.meaning.polls import Poll, polls, schedule, wire_ms
 from driveblocks.meaning.quantity import quantity
 from driveblocks.meaning.reference import reference
@@ -57,6 +57,7 @@ ABILITIES = {
 """Command -> what a drive can do over the bus if it has it."""
 CONDUCT = ("identity", "watchdog", "commanded_by", "own_maximum", "trip_output")
 """What gaps about what a drive does by itself refer to."""
+UNKNOWN = "not known"
 UNSCALED = "with a scale that you find out"
 WORDS = {"at_speed": "at speed", "ready": "ready", "warning": "in a warning state"}
 Measured = tuple[str, Sequence[tuple[str, str]]]
@@ -198,8 +199,8 @@ def _wires(drive: Drive) -> dict[str, str]:
     return {
         "name": f"[{drive.prefix}]({drive.prefix}_Drive.md)",
         "port": own.connector or UNKNOWN,
-        "positive": own.positive,
-        "negative": own.negative,
+        "positive": own.at("positive") or UNKNOWN,
+        "negative": own.at("negative") or UNKNOWN,
         "common": own.at("common") or UNKNOWN,
         "termination": own.termination or UNKNOWN,
         "silence": milliseconds or characters or UNKNOWN,

@@ -7,11 +7,11 @@ from driveblocks.meaning.plug import Plug
 WIDTH, LEFT, PITCH, TOP, ROW, TEXT = 680, 40, 20, 56, 26, 250
 CONTACTS = 8
 SAYS = {
-    "positive": "+  (D1, B of TIA-485)", "negative": "-  (D0, A of TIA-485)", "data": "+ or -: measure",
+    "positive": "+  (D1, B of TIA-485)", "negative": "-  (D0, A of TIA-485)",
     "common": "common", "shield": "shield", "supply": "a supply: leave it free",
     "reserved": "something else: leave it free", "unconnected": "not connected", "": "leave it free",
 }  # fmt: skip
-KINDS = {"positive": "go", "negative": "line", "data": "go", "common": "dashed", "shield": "dashed"}
+KINDS = {"positive": "go", "negative": "line", "common": "dashed", "shield": "dashed"}
 """How a wire is drawn, as in the picture of the line."""
 
 

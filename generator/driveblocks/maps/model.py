@@ -60,8 +60,8 @@ Trust = Literal["read", "sister", "transcribed", "in_use"]
 """How far facts of a document can be trusted, the best first."""
 Connector = Literal["rj45", "terminals", "d_sub"]
 """What the line is plugged into, or wired to."""
-Wire = Literal["positive", "negative", "data", "common", "shield", "supply", "reserved", "unconnected"]
-"""What a pin of it is; `data` is one of the two where no text says which."""
+Wire = Literal["positive", "negative", "common", "shield", "supply", "reserved", "unconnected"]
+"""What a pin of it is."""
 Space = Literal["holding", "input", "coil", "discrete"]
 """A table of Modbus."""
 Does = Literal[
@@ -481,8 +481,8 @@ class Pin(Entry):
     pin: Str = fact("its number, or what the drive prints beside it", '"4"')
     label: Str | None = option("the maker's word for it, where that is another", "D1 Modbus signal")
     wire: Wire = fact(
-        "what it is: `positive` while nobody sends is D1, or B of TIA-485, `negative` D0, or A; `data` one of the two "
-        "where no text says which; `reserved` carries something else",
+        "what it is: `positive` while nobody sends is D1, or B of TIA-485, `negative` D0, or A; `reserved` carries "
+        "something else",
         "positive",
     )
 

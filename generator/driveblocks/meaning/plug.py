@@ -6,7 +6,6 @@ from driveblocks.maps.model import Drive, Pin, Wire, kept
 from driveblocks.maps.trust import words
 
 CONNECTORS = {"rj45": "RJ45 socket", "terminals": "Terminals", "d_sub": "D-sub connector"}
-UNKNOWN = "not known"
 
 
 @dataclass(frozen=True)
@@ -36,21 +35,6 @@ class Plug:
         found = [one for one in self.pins if one.wire in wires]
         return "; ".join(", ".join(filter(None, (_pin(one), one.label))) for one in found)
 
-    @property
-    def positive(self) -> str:
-        """Where the wire is that is positive while nobody sends: D1, or B of TIA-485."""
-        return self.at("positive") or self._either
-
-    @property
-    def negative(self) -> str:
-        """Where the other one is: D0, or A of TIA-485."""
-        return self.at("negative") or self._either
-
-    @property
-    def _either(self) -> str:
-        pins = " or ".join(_pin(one) for one in self.pins if one.wire == "data")
-        return f"{pins}: measure" if pins else UNKNOWN
-
 
 def _pin(one: Pin) -> str:
     """A pin by its number, or a terminal by its name."""
@@ -74,10 +58,6 @@ def plug(drive: Drive) -> Plug:
         shield=one.shield or "; ".join(_pin(each) for each in one.pins if each.wire == "shield"),
         never=one.never,
         source=f"{by.title if by else drive.manual.title.en}, {one.source} ({words(trust)})",
-        agreed=tuple(
-            f"{titles[each.document].title}, {each.page}: {each.reads}"
-            for each in one.corroborated
-            if each.document in titles
-        ),
+        agreed=tuple(f"{titles[each.document].title}, {each.page}: {each.reads}" for each in one.corroborated),
         gaps=gaps,
     )

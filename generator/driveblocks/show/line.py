@@ -68,8 +68,8 @@ def line(drive: Drive) -> Iterator[RenderableType]:
 def _plug(drive: Drive) -> str:
     """Which wire goes where; nothing where no text says."""
     own = plug(drive)
-    wires = f", + {own.positive}, - {own.negative}" if own.pins else ""
-    return f"{own.connector}{wires}"
+    wires = {"+": own.at("positive"), "-": own.at("negative"), "common": own.at("common")}
+    return "; ".join(filter(None, (own.connector, *(f"{wire} {at}" for wire, at in wires.items() if at))))
 
 
 def _mode(code: ModeCode) -> str:

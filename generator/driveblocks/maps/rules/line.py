@@ -118,10 +118,8 @@ def _plug(plug: Plug, report: Report) -> None:
     for one in plug.pins:
         if most and one.pin.isdecimal() and one.pin not in map(str, range(1, most + 1)):
             report.add(one.place("pin"), f"pin {one.pin} of {most}", f"`{plug.connector}` has pins 1 to {most}")
-    wires = {one.wire for one in plug.pins} & {"positive", "negative", "data"}
-    if wires not in ({"positive", "negative"}, {"data"}, set()):
-        wrong = f"no pair of wires: {', '.join(sorted(wires))}"
-        report.add(plug.place("pins"), wrong, "write positive and negative, or data of both where no text says which")
+    if len(wires := {one.wire for one in plug.pins} & {"positive", "negative"}) == 1:
+        report.add(plug.place("pins"), f"a {min(wires)} wire alone", "name the other, too")
     said = (plug.pins, plug.termination, plug.bias, plug.shield, plug.never)
     if plug.connector is None and not any(said):
         report.miss(plug.at, "`pins` that say nothing", "add what the text says, or an entry of `absent`")
