@@ -38,7 +38,6 @@ def test_what_is_no_longer_a_word_says_what_to_write() -> None:
 
 
 RESERVED = (
-    ("interface: {en: RS-485}", "interface: {en: RS-485}\n  pins: [{pin: 1, signal: A}]"),
     ("means: frequency, source: table 1}", "means: frequency, source: table 1, printed: 0.01 Hz, rung: 2}"),
     ("{code: 03H, name: Read registers,", "{code: 03H, name: Read registers, rung: {of: 3},"),
 )

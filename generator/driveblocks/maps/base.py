@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 from driveblocks.maps import catalog
 from driveblocks.maps.form import NUMBER
-from driveblocks.maps.model import Drive, ErrorCode, Manual, State, Text, Twin
+from driveblocks.maps.model import Drive, ErrorCode, Manual, Pin, State, Text, Twin
 from driveblocks.maps.nodes import Entries, Items, Node, Scalar, told
 from driveblocks.maps.problem import Place, Report, Taken
 from driveblocks.maps.shape import EntryOf, ListOf, Shape, keys_of, required_of
@@ -18,7 +18,7 @@ DEEPER = " > "
 """Between the names of a path in `without`."""
 _NAMES = ("address", "bit", "code", "value", "does", "shows", "id", "what")
 """Keys that name a row in its list."""
-_NAMED_BY: dict[type, str] = {State: "name", ErrorCode: "code", Twin: "stored"}
+_NAMED_BY: dict[type, str] = {State: "name", ErrorCode: "code", Twin: "stored", Pin: "pin"}
 """What names the rows of other lists."""
 _ADDRESS = len("0026H")
 _WHOLE = (Manual, Text)

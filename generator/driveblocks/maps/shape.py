@@ -8,7 +8,7 @@ from typing import Annotated, Any, Literal, Union, get_args, get_origin, get_typ
 
 from driveblocks.maps import form
 from driveblocks.maps.form import Form
-from driveblocks.maps.model import RESERVED, RESERVED_FACT
+from driveblocks.maps.model import RESERVED_FACT
 
 
 @dataclass(frozen=True)
@@ -63,7 +63,7 @@ def keys_of(cls: type) -> dict[str, Key]:
 def reserved_of(cls: type) -> tuple[str, ...]:
     """The keys of a model class that may be there, and that nothing reads yet."""
     own = keys_of(cls)
-    return tuple(key for key in (*RESERVED.get(cls, ()), *(RESERVED_FACT if "source" in own else ())) if key not in own)
+    return tuple(key for key in RESERVED_FACT if "source" in own and key not in own)
 
 
 @cache
