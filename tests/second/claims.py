@@ -517,7 +517,12 @@ class Claims:
             self.trips[index].look(claim.changed_us)
             self._stands(index, claim)
         period, steady = self._period(index), self._steady(index, claim)
-        missed = period and steady and now - claim.written_us > period + REFRESH_US and len(bench.models) < 8
+        missed = (
+            period
+            and steady
+            and now - claim.written_us > period + REFRESH_US + 2 * round_us(bench)
+            and len(bench.models) < 8
+        )
         dead = [i for i, each in enumerate(self.judge.units) if now - each.away_us < CALM_US]
         missed = missed and now - self.judge.slow_us > CALM_US and not dead  # stops that are not answered come first
         missed = missed and now - self.judge.counts.asked_us > REFRESH_US  # parameters have their turn, too

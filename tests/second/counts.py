@@ -141,7 +141,8 @@ class Counts:
         self._once("scans", bad=seen[:2] != seen[2:], seen=seen)
         echo, load = self._line("Echo"), self._line("LoadPercent")
         # a copy may pass for a reply, and a panel that asks for the same for the port's own characters
-        copied = self.bench.now - max(self.judge.claims.doubled_us, self.bench.panel_us) < CALM_US
+        copied = self.bench.now - self.judge.claims.doubled_us < ATTEND_US or self.bench.strangely
+        copied = copied or not any(self.bench.shows("CommOk", index) for index in range(len(self.starts)))
         self._once("echo", bad=echo not in ECHOES[self.bench.echo] and not copied, seen=("Echo", echo))
         self._once("load", bad=load > 100, seen=("LoadPercent", load))
 

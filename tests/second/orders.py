@@ -53,7 +53,7 @@ class Orders:
         """Nothing asked or stopped, and StopConfirmed, before this scan; what was answered; whether it has run."""
         self.asked_before = self.reset_before = self.moved = self.owed = True
         self.resets = self.reading = False
-        self.fault_us = self.back_us = -FINISH_US
+        self.fault_us = self.back_us = self.moved_us = -FINISH_US
         self.taken_us = -AGAIN_US
         """When its slot or its address was last another's, too."""
         self.astray_us: int | None = None
@@ -169,7 +169,9 @@ class Orders:
         self.moved = bool(pins.get("Restart")) or (
             not confirmed and (self.moved or self._shows("Running") or self.commanded)
         )
-        boots = bench.now < max(unit.restarted_us + BOOT_US, unit.back_us) or pins.get("Address") != self.index + 1
+        elsewhere = pins.get("Address") != self.index + 1
+        self.moved_us = bench.now if elsewhere else self.moved_us  # another unit has its time to boot, too
+        boots = elsewhere or bench.now < max(max(unit.restarted_us, self.moved_us) + BOOT_US, unit.back_us)
         tripped = self._shows("Fault") and self._shows("ZeroSpeed")  # its stop stays open, and is not overdue
         away = any_of(("MonitorOnly", "SpeedOnly", "SupplyOff", "Restart"), pins) or boots or tripped
         idle = self.moved and not (self.wish or confirmed or away)
