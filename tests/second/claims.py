@@ -674,7 +674,7 @@ class Claims:
         units = enumerate(self.judge.units)
         turns = [self.bench.turn_round(i) for i, each in units if now - each.away_us < CALM_US]
         slow = sum(ASKS * QUARTER * 1000 * turn for turn in turns if turn > UNHURRIED_MS)  # all the dead have a quarter
-        forgotten = now - claim.sent_us > PROBE_US + slow and now - unit.unknown_us > 0
+        forgotten = now - claim.sent_us > PROBE_US * (1 + (len(turns) > 3)) + slow and now - unit.unknown_us > 0
         elsewhere = any_of((*ASTRAY, "SupplyOff"), pins) or pins.get("Address") != index + 1
         if elsewhere or self.bench.faults.lost:  # a probe that is lost is not seen here
             claim.sent_us = now

@@ -357,7 +357,7 @@ def test_a_motor_is_watched_whatever_its_time_to_stop(within: int, ms: int) -> N
 
 @pytest.mark.parametrize("pins", [{}, {"SpeedOnly": True}, {"MonitorOnly": True}])
 def test_a_stop_that_another_block_has_left_in_the_slot_is_written_over(pins: dict[str, bool]) -> None:
-    """It may have the same number, and no function code yet: it was never sent, and the contact stayed open for good."""
+    """It may have the same number, and no function code yet: it was never sent, and the contact stayed open."""
     b = Second(*types_of("CHF", 3, ascii_=False), pins=pins)
     b.run(6000)
     b.put(0, RunForward=not pins).run(1000)
