@@ -45,7 +45,9 @@ FILLED = {
     ("gd200a", "--format", "8N2", "--baud", "38400"): {
         "P14.01": ["**5 = 38400 bit/s**", "4 = 19200 bit/s", "5 at 0E01H"],
         "P14.02": ["**3 = 8N2, RTU**", "1 = 8E1, RTU", "3 at 0E02H"],
-        "P14.04": ["______ s", "0.0 s", "x 0.1 s at 0E04H"],
+        "P14.04": ["______ s: 0.0 to 60.0 s", "0.0 s", "x 0.1 s at 0E04H"],
+        "P00.05": ["as delivered", "0.00 Hz", "x 0.01 Hz at 0005H"],
+        "P00.11": ["______ s: 0.0 to 3600.0 s", "depends on the model", "x 0.1 s at 000BH"],
         "P00.03": ["______ Hz", "50.00 Hz", "x 0.01 Hz at 0003H"],
     },
     ("mx2", "--watchdog", "0.5"): {
@@ -77,7 +79,7 @@ def test_every_setting_is_filled_in(words: tuple[str, ...]) -> None:
         (("gd200a", "--format", "7E1"), "8E1, 8N1, 8O1, 8N2, 8E2, 8O2, not 7E1"),
         (("pf525", "--watchdog", "61"), "C126 takes 0.1 to 60.0 s in steps of 0.1 s, not 61 s"),
         (("pf525", "--watchdog", "0.25"), "not 0.25 s"),
-        (("gd200a", "--watchdog", "0"), "P14.04 takes steps of 0.1 s, not 0 s"),
+        (("gd200a", "--watchdog", "0"), "P14.04 takes 0.0 to 60.0 s in steps of 0.1 s, not 0 s"),
         (("pf525", "--watchdog", "soon"), "a number of seconds"),
         (("pf525", "--watchdog", "NaN"), "not NaN s"),
         (("pf525", "--watchdog", "1e999999"), "C126 takes 0.1 to 60.0 s"),
