@@ -31,7 +31,7 @@ def cells(text: str, id_: str) -> list[str]:
 
 FILLED = {
     ("pf525", "--address", "3", "--baud", "19200", "--watchdog", "1"): {
-        "P046": ["**3 = Serial/DSI**", "", "3 at 002EH"],
+        "P046": ["**3 = Serial/DSI**", "1 = Keypad", "3 at 002EH"],
         "C124": ["**3**", "100", "3 at 007CH"],
         "C123": ["**4 = 19200 bit/s**", "3 = 9600 bit/s", "4 at 007BH"],
         "C127": ["**0 = RTU 8-N-1**", "0 = RTU 8-N-1", "0 at 007FH"],
@@ -55,7 +55,13 @@ FILLED = {
         "C071": ["**05 = 9600 bit/s**", "05 = 9600 bit/s", "5 at 144BH (wire 144AH)"],
         "C077": ["**0.50 s**", "", "50 at 1451H (wire 1450H)"],
     },
-    ("altivar_312",): {"TTO": ["______ s: 0.1 to 30.0 s", "10.0 s", "x 0.1 s at 1775H"]},
+    ("altivar_312", "--baud", "9600"): {
+        "Fr1": ["**Mdb = Modbus**", "AI1 = Analog input AI1", "164 at 20DDH"],
+        "tbr": ["**9.6 = 9600 bit/s**", "19.2 = 19200 bit/s", "28 at 1773H"],
+        "ttO": ["______ s: 0.1 to 30.0 s", "10.0 s", "x 0.1 s at 1775H"],
+        "dEC": ["______ s", "3 s", "at 232AH"],
+        "FLO": ["as delivered", "nO", ""],
+    },
     ("jscc", "--baud", "9600"): {
         "FA.01": ["**2 = 9600 bit/s**", "3 = 19200 bit/s", "2"],
         "FA.03": ["**2 = RTU mode**", "2 = RTU mode", "2"],

@@ -21,7 +21,7 @@ LONG = 90
 DAY_S = 86400
 """No watchdog counts as long."""
 TITLES = dict(zip(GROUPS, ("Access level", "Who commands, and how the motor runs", "Address, rate, format",
-                           "When the line is silent", "Limits and ramps", "Nothing to change"), strict=True))  # fmt: skip
+                           "When the line is silent", "Limits, ramps", "Nothing to change"), strict=True))  # fmt: skip
 
 
 @dataclass(frozen=True)
