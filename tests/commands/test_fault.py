@@ -125,7 +125,7 @@ def test_a_fault_of_which_nothing_was_read_says_so() -> None:
 def test_what_clears_it_is_the_reset_of_the_family_unless_only_power_does() -> None:
     clears = {one.code: one.clears for one in advice(load(catalog.folder() / "rockwell_powerflex_525.yaml"))}
     assert (clears[13], clears[94]) == ("`FaultReset`", "switch the drive off and on")
-    assert "nothing on the bus: reset it at the drive" in fault("sn300g5", "UV1").stdout
+    assert "nothing on the bus; reset it at the drive" in fault("sn300g5", "UV1").stdout
 
 
 def test_an_unknown_code_ends_with_2_and_the_nearest() -> None:

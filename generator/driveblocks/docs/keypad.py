@@ -20,8 +20,8 @@ LONG = 90
 """A longer list of values is not repeated on a sheet."""
 DAY_S = 86400
 """No watchdog counts as long."""
-TITLES = dict(zip(GROUPS, ("Access level", "Who commands, and how the motor runs", "Address, rate, format",
-                           "When the line is silent", "Limits, ramps", "Nothing to change"), strict=True))  # fmt: skip
+TITLES = dict(zip(GROUPS, ("Access level", "Who commands", "Address, rate, format", "When the line is silent",
+                           "Limits and ramps", "Leave as delivered"), strict=True))  # fmt: skip
 
 
 @dataclass(frozen=True)
