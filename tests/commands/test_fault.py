@@ -120,6 +120,7 @@ def test_a_fault_of_which_nothing_was_read_says_so() -> None:
     assert "Where a cell is empty, nothing was read: see the drive's own manual." in page
     assert "none in the map; see the drive's own manual" in fault("sn300g5", "OC").stdout
     assert "none in the map; see the drive's own manual" in fault("mx2", "E01").stdout
+    assert "The map has no list of fault codes" in (PAGES / "CHF_Drive.md").read_text(encoding="utf-8")
 
 
 def test_what_clears_it_is_the_reset_of_the_family_unless_only_power_does() -> None:

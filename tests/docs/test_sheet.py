@@ -106,6 +106,15 @@ def test_each_sheet_has_every_setting_once(drive: Drive) -> None:
         assert text.count(f"| [ ] | {one.keypad.code} ") == 1
 
 
+def test_limits_and_ramps_stand_together_and_what_stays_as_delivered_last() -> None:
+    groups = {
+        name: [each.setting.id for each in some] for name, some in keypad.rows(shipped.drives()["GD200A"]).items()
+    }
+    assert groups["Limits and ramps"] == ["P00.03", "P00.04", "P00.05", "P00.11", "P00.12"]
+    assert [*groups][-1] == "Leave as delivered"
+    assert groups["Leave as delivered"] == ["P01.19", "P07.04", "P08.47"]
+
+
 @every
 def test_each_rate_and_format_can_be_chosen(drive: Drive) -> None:
     asked = {each.setting for each in (drive.serial.baud, drive.serial.format) if each and each.setting}
