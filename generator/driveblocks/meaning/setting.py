@@ -181,9 +181,7 @@ def _group(drive: Drive, one: model.Setting) -> str:
         return "line"
     if one.id in _silence(drive):
         return "silence"
-    if one.id in (run.reference.maximum, run.lower_limit) or (own is not None and own == one.register):
-        return "limits"
-    if one.display and one.display.unit in ("Hz", "s") and not one.needed:
+    if one.id == run.reference.maximum or (own is not None and own == one.register) or drive.adjusts(one):
         return "limits"
     return "line" if beside else "commands" if one.needed else "rest"
 

@@ -435,7 +435,6 @@ SETTINGS = {
     "B1-04": (0x0183, None, None, None, []),
     "L5-01": (0x0495, None, None, None, []),
     "E1-04": (0x0303, None, None, None, []),
-    "D2-01": (0x0289, None, None, None, []),
     "D2-02": (0x028A, None, None, None, []),
     "C1-01": (0x0200, None, None, None, []),
     "C1-02": (0x0201, None, None, None, []),
