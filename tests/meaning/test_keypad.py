@@ -130,5 +130,5 @@ def test_a_person_meets_settings_in_this_order(drive: Drive) -> None:
 
 
 def test_the_address_comes_before_rate_and_format() -> None:
-    ids = [one.id for one in in_order(shipped.drives()["PF525"])]
+    ids = [one.id for one in in_order(shipped.drives()["PF525"]) if one.group not in ("limits", "rest")]
     assert ids == ["P046", "P047", "C124", "C123", "C127", "C121", "C122", "C125", "C126"]

@@ -76,6 +76,8 @@ class Setting:
     keypad: Keypad = field(default_factory=lambda: Keypad(""))
     group: str = "rest"
     """One of `GROUPS`."""
+    adjusted: bool = False
+    """It is a limit or a ramp that nothing needs, which a PLC may write, too."""
 
     def named(self, number: int | None) -> str:
         """What the manual calls a value."""
@@ -131,6 +133,7 @@ def settings(drive: Drive) -> tuple[Setting, ...]:
             note=one.note or "",
             keypad=keypad_of(drive, one),
             group=_group(drive, one),
+            adjusted=drive.adjusts(one),
         )
         for one in drive.settings
     )

@@ -70,7 +70,7 @@ def may_write(drive: Drive, allowed: Plan) -> MayWrite:
 
 def _settings(drive: Drive) -> Iterator[int | None]:
     """The registers of the settings but limits and ramps, and of the maximum that the full scale is compared with."""
-    yield from (one.register for one in drive.settings if not drive.adjusts(one))
+    yield from (one.register for one in settings(drive) if not one.adjusted)
     yield maximum.register if (maximum := own_maximum(drive)) else None
 
 
