@@ -170,7 +170,7 @@ def _both(shape: Shape, base: Node, mine: Node | None, own: _Own) -> Node:
 
 
 def _entries(shape: EntryOf, base: Entries, mine: Entries | None, own: _Own) -> Entries:
-    """Key by key; its document is the sister's manual, unless the map gives a source of its own, which replaces all of it."""
+    """Key by key; its document is the sister's manual; a source that the map gives replaces all that goes with one."""
     known, said = keys_of(shape.cls), mine.entries if mine else {}
     entries = {}
     for key, (name, value) in base.entries.items():
