@@ -26,7 +26,7 @@ def places(drive: Drive) -> list[Place]:
     numbers = {one.id: f" [{number}]" for number, one in enumerate(documents(drive), 1)}
     for fact in facts(drive):
         note = numbers[fact.document.id] if fact.document else ""
-        key = (fact.part, _source(fact) or drive.faults.source, note, words(fact.trust))
+        key = (fact.part, "; ".join((_source(fact) or drive.faults.source, *fact.rules)), note, words(fact.trust))
         place = found.setdefault(key, Place(*key))
         place.names.append(fact.name.replace("_", " "))
         place.cells |= dict.fromkeys(_cells(fact))

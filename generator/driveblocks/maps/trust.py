@@ -31,6 +31,11 @@ class Fact:
     said: tuple[Any, ...]
     """The entries that say it; of their documents the one to trust least counts."""
 
+    @property
+    def rules(self) -> tuple[str, ...]:
+        """By what it is derived from others, where it is."""
+        return tuple(one.rule for one in self.said if one.rule and one.rung == self.trust)
+
 
 def taken(value: Any) -> Iterator[tuple[str, Place]]:
     """Every document that a fact is taken from, in a map or a part of it, and where that is said."""
@@ -111,9 +116,8 @@ def heard(drive: Drive) -> list[str]:
 
 def _title(fact: Fact) -> str:
     """From what a fact is that was not read."""
-    rules = [one.rule for one in fact.said if one.rule and one.rung == fact.trust]
-    if rules or not fact.document:
-        return rules[0] if rules else "the manual as others wrote it down"
+    if fact.rules or not fact.document:
+        return "; ".join(fact.rules) or "the manual as others wrote it down"
     return f"{fact.document.title}, {fact.document.publisher}"
 
 
