@@ -181,6 +181,14 @@ def input_registers(sheet: Sheet, made: Row, section: Row) -> None:
 
 # ---------------------------------------------------------------- the line
 
+PLUGS: tuple[Row, ...] = (
+    {},
+    {"connector": "rj45", "pins": [{"pin": "4", "label": "RS+", "wire": "positive"}, {"pin": "5", "wire": "negative"}],
+     "termination": "120 ohm by S2", "bias": "in the master", "shield": "on earth", "never": ["use pin 7"]},
+    {"connector": "terminals", "pins": [{"pin": "T1", "wire": "negative"}, {"pin": "T2", "wire": "positive"}]},
+)  # fmt: skip
+"""Where the line is connected, by the last unit address."""
+
 
 def line(sheet: Sheet, made: Row) -> None:
     """Formats and rates that other settings choose, or none; both modes; addresses that the standard reserves."""
@@ -195,6 +203,8 @@ def line(sheet: Sheet, made: Row) -> None:
     for key, value in (("write_words", 4), ("data_bytes", 60), ("group", 256)):
         if sheet.maybe(0.1):
             limits[key] = {"value": value, "source": "section 2"}
+    if pins := PLUGS[serial["unit"]["max"] % len(PLUGS)]:
+        serial["pins"] = pins | {"source": "figure 2"}
     if "ascii" in serial["mode"]["modes"] and sheet.maybe():
         limits["ascii_data_bytes"] = {"value": 40, "source": "section 2"}
     if sheet.maybe(0.15):

@@ -9,6 +9,7 @@ from driveblocks.maps.model import Drive
 from driveblocks.maps.trust import second_hand
 from driveblocks.maps.view import title
 from driveblocks.meaning import chosen, conduct
+from driveblocks.meaning.plug import plug
 from driveblocks.meaning.serial import FORMS, character, serial
 from driveblocks.meaning.setting import GROUPS, Setting, in_order, setting
 from driveblocks.meaning.watchdog import watchdog
@@ -126,6 +127,7 @@ def page(drive: Drive, word: str, line: Wanted) -> str:
         line=line,
         groups=rows(drive, line),
         interface=serial(drive).interface,
+        plug=plug(drive),
         known=chosen.rates(drive),
         gaps=list(_gaps(drive)),
         silent=conduct.silent_line(drive),
@@ -139,5 +141,5 @@ def page(drive: Drive, word: str, line: Wanted) -> str:
 def _gaps(drive: Drive) -> Iterator[tuple[str, str]]:
     """What the map does not know of the line and of its settings, and how a person finds it out."""
     for each in drive.absent:
-        if "serial" in each.about or any(one.startswith("setting ") for one in each.about):
+        if not {"serial", "pins"}.isdisjoint(each.about) or any(one.startswith("setting ") for one in each.about):
             yield each.what, each.find_out

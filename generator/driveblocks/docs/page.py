@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from math import ceil
 from typing import Any
 
-from driveblocks.docs import bus, chain, evidence, keypad, ladder, network, states, sto, timing
+from driveblocks.docs import bus, chain, evidence, keypad, ladder, network, socket, states, sto, timing
 from driveblocks.docs.members import members
 from driveblocks.docs.pins import Pin, pins
 from driveblocks.maps import inventory, references, rivals, trust
@@ -15,6 +15,7 @@ from driveblocks.maps.model import Absence, Drive, Erratum, Notice
 from driveblocks.meaning import conduct
 from driveblocks.meaning.advice import advice
 from driveblocks.meaning.measure import PINS, measures, own_maximum
+from driveblocks.meaning.plug import plug
 from driveblocks.meaning.polls import Poll, polls, schedule, wire_ms
 from driveblocks.meaning.quantity import quantity
 from driveblocks.meaning.reference import reference
@@ -56,6 +57,7 @@ ABILITIES = {
 """Command -> what a drive can do over the bus if it has it."""
 CONDUCT = ("identity", "watchdog", "commanded_by", "own_maximum", "trip_output")
 """What gaps about what a drive does by itself refer to."""
+UNKNOWN = "not known"
 UNSCALED = "with a scale that you find out"
 WORDS = {"at_speed": "at speed", "ready": "ready", "warning": "in a warning state"}
 Measured = tuple[str, Sequence[tuple[str, str]]]
@@ -112,6 +114,8 @@ def pages(drives: list[Drive], checked: Checked, own: Mapping[str, Own], platfor
         found[f"{FOLDER}/{name}.md"] = _page(drive, checked, values, own.get(drive.prefix, Own()), platforms)
         found[f"{FOLDER}/{name}.svg"] = ladder.picture(name, "Motor", inputs, in_outs, outputs)
         found[f"{FOLDER}/{name}_timing.svg"] = timing.picture(drive, name)
+        if plug(drive).drawn:
+            found[f"{FOLDER}/{name}_socket.svg"] = socket.picture(f"The socket of {drive.prefix}", plug(drive))
         drawn = [one for one in platforms if PLATFORMS[one].drawn]
         found |= {f"{FOLDER}/{name}_ladder_{one}.svg": _network(one, drive, blocks) for one in drawn}
         if not drawn or drawn != platforms:
@@ -190,17 +194,19 @@ def _turns_on(drive: Drive) -> str:
 
 
 def _wires(drive: Drive) -> dict[str, str]:
-    """What the manual of a drive says of its line, and what it does not say."""
-    gaps = [one for one in drive.absent if "serial" in one.about and "termination" in one.what]
-    line = serial(drive)
+    """Which wire of the line goes where, and what no text says of it."""
+    line, own = serial(drive), plug(drive)
     milliseconds = f"more than {line.silence_ms} ms" if line.silence_ms else ""
     characters = f"{line.silence_characters} characters" if line.silence_characters else ""
     return {
         "name": f"[{drive.prefix}]({drive.prefix}_Drive.md)",
-        "port": line.interface,
-        "open": "see below" if gaps else "see the manual",
-        "silence": milliseconds or characters or "the manual does not say",
-        "find_out": "; ".join(one.find_out for one in gaps),
+        "port": own.connector or UNKNOWN,
+        "positive": own.at("positive") or UNKNOWN,
+        "negative": own.at("negative") or UNKNOWN,
+        "common": own.at("common") or UNKNOWN,
+        "termination": own.termination or UNKNOWN,
+        "silence": milliseconds or characters or UNKNOWN,
+        "find_out": "; ".join(find_out for _, find_out in own.gaps),
     }
 
 
@@ -281,7 +287,12 @@ def _page(drive: Drive, checked: Checked, values: Mapping[str, Any], own: Own, p
         measured=own.measured,
         edition=drive.manual.edition,
         platforms=[(one, PLATFORMS[one].title, PLATFORMS[one].drawn) for one in platforms],
-        first=[each.what for each in open_ if "serial" in each.about or any("setting" in one for one in each.about)],
+        first=[
+            each.what
+            for each in open_
+            if not {"serial", "pins"}.isdisjoint(each.about) or any("setting" in one for one in each.about)
+        ],
+        plug=plug(drive),
         errata=list(_errata(drive)),
         faults=sorted(advice(drive), key=lambda one: one.code),
         helped=drive.faults.help,
@@ -383,7 +394,7 @@ def _open(drive: Drive, one: Absence) -> bool:
     """Whether a gap of the manual is about the line, commands, reference, a scale that a pin needs, or conduct."""
     told = {each.last.register for each in words(drive).commands} | {reference(drive).register}
     told |= {each.register for each in measures(drive) if not quantity(drive, each.register).factors}
-    about = {"serial", "operation", *CONDUCT, *map(references.of, told)}
+    about = {"serial", "pins", "operation", *CONDUCT, *map(references.of, told)}
     about |= {f"setting {each.id}" for each in settings(drive)}
     return not about.isdisjoint(one.about)
 

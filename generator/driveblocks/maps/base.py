@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 from driveblocks.maps import catalog
 from driveblocks.maps.form import NUMBER
-from driveblocks.maps.model import Drive, ErrorCode, Manual, State, Text, Twin
+from driveblocks.maps.model import Drive, ErrorCode, Manual, Pin, State, Text, Twin
 from driveblocks.maps.nodes import Entries, Items, Node, Scalar, told
 from driveblocks.maps.problem import Place, Report, Taken
 from driveblocks.maps.shape import EntryOf, ListOf, Shape, keys_of, required_of, told_last
@@ -18,7 +18,7 @@ DEEPER = " > "
 """Between the names of a path in `without`."""
 _NAMES = ("address", "bit", "code", "value", "does", "shows", "id", "what")
 """Keys that name a row in its list."""
-_NAMED_BY: dict[type, str] = {State: "name", ErrorCode: "code", Twin: "stored"}
+_NAMED_BY: dict[type, str] = {State: "name", ErrorCode: "code", Twin: "stored", Pin: "pin"}
 """What names the rows of other lists."""
 _ADDRESS = len("0026H")
 _WHOLE = (Manual, Text)
@@ -174,9 +174,7 @@ def _entries(shape: EntryOf, base: Entries, mine: Entries | None, own: _Own) -> 
     known, said = keys_of(shape.cls), mine.entries if mine else {}
     entries = {}
     for key, (name, value) in base.entries.items():
-        if key not in known:
-            entries[key] = (name, said[key][1] if key in said else value)
-        elif key not in {"document", *told_last(shape.cls)} or "source" not in said or key in said:
+        if key not in {"document", *told_last(shape.cls)} or "source" not in said or key in said:
             entries[key] = (name, _both(known[key].shape, value, said[key][1] if key in said else None, own))
     entries |= {key: each for key, each in said.items() if key not in base.entries}
     return Entries(entries if "source" in said else _sourced(shape, entries, own), mine.at if mine else base.at)

@@ -60,6 +60,10 @@ Trust = Literal["read", "sister", "transcribed", "in_use"]
 """How far facts of a document can be trusted, the best first."""
 Rung = Literal["read", "sister", "derived", "transcribed", "in_use"]
 """How far a fact can be trusted, the best first."""
+Connector = Literal["rj45", "terminals", "d_sub"]
+"""What the line is plugged into, or wired to."""
+Wire = Literal["positive", "negative", "common", "shield", "supply", "reserved", "unconnected"]
+"""What a pin of it is."""
 Space = Literal["holding", "input", "coil", "discrete"]
 """A table of Modbus."""
 Does = Literal[
@@ -499,6 +503,38 @@ class Broadcast(Cited):
 
 
 @dataclass(frozen=True, kw_only=True)
+class Pin(Entry):
+    """A pin, or a terminal."""
+
+    pin: Str = fact("its number, or what the drive prints beside it", '"4"')
+    label: Str | None = option("the maker's word for it, where that is another", "D1 Modbus signal")
+    wire: Wire = fact(
+        "what it is: `positive` while nobody sends is D1, or B of TIA-485, `negative` D0, or A; `reserved` carries "
+        "something else",
+        "positive",
+    )
+
+
+@dataclass(frozen=True, kw_only=True)
+class Plug(Cited):
+    """Where the line is connected, as far as a text says."""
+
+    connector: Connector | None = option("what it is", "rj45")
+    pins: tuple[Pin, ...] = option(
+        "its pins or terminals; a pin of a plug is a number", '[{pin: "4", label: D1, wire: positive}]', default=()
+    )
+    termination: English | None = option("the resistor at the ends of the line, and where it is", "built in, by S1")
+    bias: English | None = option("what holds the two wires apart while nobody sends", "650 ohm, in the master")
+    shield: English | None = option("where the shield goes", "on earth at each device")
+    never: tuple[English, ...] = option("what not to do", "[wire pin 7]", default=())
+    source: English = fact("where the manual says so", "page 8")
+    document: Word | None = option(_SAYS_SO, "fieldbus_guide")
+    corroborated: tuple[Corroboration, ...] = option(
+        "other documents on this", "[{document: ..., page: ..., reads: ...}]", default=()
+    )
+
+
+@dataclass(frozen=True, kw_only=True)
 class Serial(Entry):
     """The line: interface, modes, rates, formats, addresses, pauses."""
 
@@ -516,6 +552,7 @@ class Serial(Entry):
         "what lets the drive answer later", "{setting: P14.03, milliseconds: 1, source: ...}"
     )
     broadcast: Broadcast | None = option("broadcast", "{address: 0, replies: false, source: ...}")
+    pins: Plug | None = option("where the line is connected", "{connector: rj45, pins: [...], source: ...}")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -1605,11 +1642,6 @@ class Drive(Entry):
         kept = {use: [pair for pair in rows if id(pair[1]) not in hidden["r" if use == "w" else "w"]] for use in hidden}
         return {use: ([row.address.first for _, row in some], some) for use, some in kept.items()}
 
-
-RESERVED: dict[type, tuple[str, ...]] = {
-    Serial: ("pins",),
-}
-"""Keys that nothing reads yet: the pins of the connector."""
 
 Known = TypeVar("Known")
 

@@ -5,13 +5,13 @@ from dataclasses import replace
 from typing import Any
 
 from driveblocks.maps.model import Drive, Entry, Setting, Value, Worded, kept
-from driveblocks.maps.trust import MOTION, facts, taken
+from driveblocks.maps.trust import MOTION, facts
 from structured_text.language.fingerprint import fingerprint
 
 _LATER = {
     "None": "base numbering document trust differs no_address reply_delay group ram_when present_bits needs full_scale "
     "full_scale_hz warnings silent_ms coil discrete input by counts lower_limit digit stop_bits below above delivered "
-    "profile help display",
+    "profile help display pins",
     "()": "never without one_of visible_when twins twin_ranges otherwise does at_0 fed_by editions forbids remedies",
     "False": "negative holds power_cycle",
 }
@@ -27,7 +27,7 @@ _LEFT_OUT = re.compile(
 def revision(drive: Drive) -> int:
     """A hash of a map's facts, 32 bits: what it says in English, wherever in the file it is.
 
-    What helps against a fault is for a person, and no part of it.
+    What helps against a fault, and where the line is connected, is for a person, and no part of it.
     """
     return int(fingerprint([_facts(_without_help(english(drive)))]), 16)
 
@@ -66,9 +66,22 @@ def _english(value: Any) -> Any:
 def _without_help(drive: Drive) -> Drive:
     known = drive.faults
     codes = tuple(replace(one, causes=(), remedies=(), power_cycle=False) for one in known.codes)
-    plain = replace(drive, faults=replace(known, codes=codes, help=None))
-    alone = {known.help.document if known.help else None} - {name for name, _ in taken(plain)}
+    faults, serial = replace(known, codes=codes, help=None), replace(drive.serial, pins=None)
+    plain = replace(drive, faults=faults, serial=serial)
+    alone = _named(drive) - _named(plain)
     return replace(plain, documents=tuple(one for one in drive.documents if one.id not in alone))
+
+
+def _named(value: Any) -> set[str]:
+    """The documents that something names, also as what agrees with it."""
+    if isinstance(value, tuple):
+        return set[str]().union(*map(_named, value))
+    if not isinstance(value, Entry):
+        return set()
+    own = getattr(value, "document", None)
+    return ({own} if isinstance(own, str) else set[str]()).union(
+        *(_named(getattr(value, name)) for name in value.__dataclass_fields__)
+    )
 
 
 def _facts(value: Any) -> str:

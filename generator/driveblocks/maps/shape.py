@@ -8,7 +8,7 @@ from typing import Annotated, Any, Literal, Union, get_args, get_origin, get_typ
 
 from driveblocks.maps import form
 from driveblocks.maps.form import Form
-from driveblocks.maps.model import RESERVED, Cited, Trusted
+from driveblocks.maps.model import Cited, Trusted
 
 
 @dataclass(frozen=True)
@@ -63,12 +63,6 @@ def told_last(cls: type) -> frozenset[str]:
     """The keys that a model class has as every other that is cited."""
     bases = [base for base in (Trusted, Cited) if issubclass(cls, base)]
     return frozenset(item.name for base in bases for item in dataclasses.fields(base) if "doc" in item.metadata)
-
-
-@cache
-def reserved_of(cls: type) -> tuple[str, ...]:
-    """The keys of a model class that may be there, and that nothing reads yet."""
-    return RESERVED.get(cls, ())
 
 
 @cache

@@ -18,6 +18,7 @@ from driveblocks.maps.model import (
     StopBitsCode,
 )
 from driveblocks.meaning import conduct
+from driveblocks.meaning.plug import plug
 from driveblocks.meaning.serial import PARITIES
 from driveblocks.meaning.setting import Keypad, in_order, keypad_of
 from driveblocks.meaning.setting import setting as setting_of
@@ -47,6 +48,7 @@ def line(drive: Drive) -> Iterator[RenderableType]:
     yield heading("Serial line")
     yield facts(
         ("interface", both(known.interface.en, known.interface.own)),
+        ("connected at", _plug(drive)),
         ("mode", _choice(known.mode, map(_mode, known.mode.codes), listed(known.mode.modes).upper())),
         ("bit rate", known.baud and _choice(known.baud, map(_baud, known.baud.codes))),
         ("format", known.format and _choice(known.format, map(_format, known.format.codes))),
@@ -61,6 +63,13 @@ def line(drive: Drive) -> Iterator[RenderableType]:
     yield heading("Functions")
     yield from map(of_function, drive.functions)
     yield from tolerances(drive)
+
+
+def _plug(drive: Drive) -> str:
+    """Which wire goes where; nothing where no text says."""
+    own = plug(drive)
+    wires = {"+": own.at("positive"), "-": own.at("negative"), "common": own.at("common")}
+    return "; ".join(filter(None, (own.connector, *(f"{wire} {at}" for wire, at in wires.items() if at))))
 
 
 def _mode(code: ModeCode) -> str:

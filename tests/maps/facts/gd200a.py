@@ -136,7 +136,7 @@ setting P01.21 | power cycle | unplug
 register 2100H | ramps down | coasts
 register 3000H | coasts | standstill
 serial | turn-round | time-out
-serial | terminals | 120 ohms
+pins | common | J5
 silence | ASCII | pause
 storage | EEPROM | writes
 """

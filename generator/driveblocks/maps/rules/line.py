@@ -1,7 +1,7 @@
 """Rules on the serial line, the limits of frames, and the functions."""
 
 from driveblocks.maps.form import address_text
-from driveblocks.maps.model import Broadcast, Drive, Function, ReplyDelay, Serial, Silence
+from driveblocks.maps.model import Broadcast, Drive, Function, Plug, ReplyDelay, Serial, Silence
 from driveblocks.maps.plan import OF_BITS
 from driveblocks.maps.problem import Report
 from driveblocks.maps.rules.unique import unique
@@ -11,6 +11,9 @@ STANDARD_UNITS = 247
 
 _CEILINGS = {"read_words": 125, "write_words": 123, "data_bytes": 252, "ascii_data_bytes": 252}
 """MODBUS Application Protocol V1.1b3, 6.3 and 6.12: what fits into a PDU of 253 bytes."""
+
+PINS = {"rj45": 8, "d_sub": 9}
+"""How many a plug has."""
 
 MOST_GROUP = 0x8000
 """Half of all addresses: a larger group holds them all, or all but a few."""
@@ -29,6 +32,8 @@ def check(drive: Drive, report: Report) -> None:
         _reply_delay(drive, drive.serial.reply_delay, report)
     if drive.serial.broadcast is not None:
         _broadcast(drive, drive.serial.broadcast, report)
+    if drive.serial.pins is not None:
+        _plug(drive.serial.pins, report)
     _limits(drive, report)
     _functions(drive, report)
     unique(drive.tolerances, "kind", "tolerance", report)
@@ -104,6 +109,22 @@ def _broadcast(drive: Drive, cast: Broadcast, report: Report) -> None:
         if drive.row_at(start) is None and not any(start in area.addresses for area in drive.areas):
             wrong = f"{address_text(start)} is in no register table or area"
             report.miss(cast.place("start_addresses"), wrong, "name listed registers")
+
+
+def _plug(plug: Plug, report: Report) -> None:
+    """Note a pin that is there twice or that its connector has not, and wires that are no pair."""
+    unique(plug.pins, "pin", "pin", report)
+    most = PINS.get(plug.connector or "", 0)
+    for one in plug.pins:
+        if most and one.pin.isdecimal() and one.pin not in map(str, range(1, most + 1)):
+            report.add(one.place("pin"), f"pin {one.pin} of {most}", f"`{plug.connector}` has pins 1 to {most}")
+    if len(wires := {one.wire for one in plug.pins} & {"positive", "negative"}) == 1:
+        report.add(plug.place("pins"), f"a {min(wires)} wire alone", "name the other, too")
+    said = (plug.pins, plug.termination, plug.bias, plug.shield, plug.never)
+    if plug.connector is None and not any(said):
+        report.miss(plug.at, "`pins` that say nothing", "add what the text says, or an entry of `absent`")
+    elif plug.pins and plug.connector is None:
+        report.miss(plug.at, "pins of no connector", "add `connector: rj45`, `terminals` or `d_sub`")
 
 
 def _limits(drive: Drive, report: Report) -> None:

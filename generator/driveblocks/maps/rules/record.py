@@ -200,6 +200,8 @@ def _corroborations(drive: Drive) -> Iterator[Corroboration]:
             yield from getattr(entry, "corroborated", ())
     if drive.errors.form is not None:
         yield from drive.errors.form.corroborated
+    if drive.serial.pins is not None:
+        yield from drive.serial.pins.corroborated
 
 
 def _documents(drive: Drive, report: Report) -> None:

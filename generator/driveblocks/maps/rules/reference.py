@@ -11,7 +11,7 @@ from driveblocks.maps.problem import Place, Report
 
 _SINGLE = (
     *("prose", "serial", "storage", "operation", "broadcast", "errors", "faults", "limits", "manual", "silence"),
-    *("identity", "watchdog", "warnings", "commanded_by", "own_maximum", "lower_limit", "trip_output"),
+    *("pins", "identity", "watchdog", "warnings", "commanded_by", "own_maximum", "lower_limit", "trip_output"),
 )
 _LIMITS = ("read_words", "write_words", "data_bytes", "ascii_data_bytes")
 _NUMBER = re.compile(r"[0-9]{1,9}|[0-9A-F]{1,8}H")
