@@ -40,6 +40,20 @@ def test_dead_drives_have_turns_of_their_own() -> None:
         assert max(numbers) - min(numbers) <= 1, asked
 
 
+def test_a_dead_drive_whose_block_is_not_called_rests_with_the_others() -> None:
+    """Its stops came as soon as they were due, whatever they cost, and other dead drives were not probed any more."""
+    bench = Bench(Config(drives=4)).ready()
+    for index in (0, 2):
+        bench.drives[index].alive = False
+        bench.put(index, TurnRoundMs=500)
+    bench.attended.discard(0)
+    bench.run(10_000)
+    before = len(bench.sent)
+    bench.run(30_000)
+    asked = Counter(each.unit for each in bench.sent[before:])
+    assert asked[3] >= 3, asked
+
+
 @pytest.mark.parametrize("others", [Bench.command, Bench.stop])
 def test_others_cost_no_dead_drive_its_turn(others: Callable[[Bench, int], int]) -> None:
     """While one that lives was stopped again and again, the first of two dead ones got all attempts."""

@@ -122,3 +122,31 @@ def test_stops_that_are_repeated_leave_others_time_for_a_start() -> None:
     bench.run(1800)
     assert bench.answer(7, PARAMETER) == "OK"
     assert sum(each.stop for each in bench.sent[before:]) >= 3
+
+
+def test_what_feeds_a_watchdog_takes_no_start_its_turn() -> None:
+    """Stops that are repeated and feeds of others took turns with each other, and a command was never sent."""
+    bench = Bench(Config(drives=8, scan=40_000, max_scan=45)).ready()
+    bench.attended.intersection_update({6, 7})
+    bench.run(6000)
+    bench.put(6, AskFeeds=True)
+    bench.command(7)
+    for _ in range(60):
+        if bench.answer(6, COMMAND):
+            bench.command(6)
+        bench.scan()
+    assert bench.answer(7, COMMAND) == "OK"
+
+
+def test_refreshes_take_no_start_its_turn() -> None:
+    """What was left had waited for two rounds before each turn, as feeds had the others."""
+    bench = Bench(Config(drives=3, scan=40_000, max_scan=45)).ready()
+    bench.put(0, AskFeeds=True)
+    bench.put(1, AskLater=True)
+    bench.command(2)
+    for _ in range(60):
+        for slot in (0, 1):
+            if bench.answer(slot, COMMAND):
+                bench.command(slot)
+        bench.scan()
+    assert bench.answer(2, COMMAND) == "OK"

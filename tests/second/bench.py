@@ -350,8 +350,9 @@ class Second(Bench):
                 unsaid = self.unsaid and not index and runs(self.types[0], data)
                 muted = not index and int.from_bytes(data[2:4], "big") == self.mute
                 if not (unsaid or muted) and not self._happens(self.faults.unanswered):
-                    replies.append((at, at + CHAR_US * len(text), self.judge.observer.opened(text) or b""))
-                    self._reply(index, text, at, frame if text[1] == frame.function or self.ascii else None)
+                    reply = (at, at + CHAR_US * len(text), self.judge.observer.opened(text) or b"")
+                    replies.append(reply)
+                    self._reply(index, text, at, frame if Exchange(data, end, [reply]).good else None)
         if data[0] == METER:
             replies.append((end + METER_US, end + METER_US + CHAR_US * len(counts), COUNTS))
         self.judge.answered(Exchange(data, end, replies))

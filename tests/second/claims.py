@@ -46,8 +46,9 @@ QUIET_US = 2_000_000
 """A drive that has been stopped for so long is written to no more."""
 START_US = 3_000_000
 """From the edge to the first turn: reference, run, and attempts."""
-AT_ONCE_US, AT_ONCE_ROUNDS = 700_000, 2
-"""The same where no reply is late: and two rounds of the line, for other drives' turns and the answers."""
+AT_ONCE_US, AT_ONCE_ROUNDS = 700_000, 3
+"""The same where no reply is late: and some rounds of the line, for other drives' turns and the answers; what feeds a
+watchdog has every second turn of those that are no reads."""
 SPEED_US = 6_000_000
 """From an edge or another reference to that speed: 25 Hz at 10 Hz/s, in scans of 50 ms with 8 drives."""
 BARS = ("STOPPING", "FOREIGN", "UNREAD", "SETTING", "REFERENCE", "NOT_READY", "WRITE_WAITS", "STARTING", "RUNS")
@@ -190,7 +191,7 @@ class Claims:
         claim, pins = self.claims[index], self.bench.pins[index]
         writes = body[1] in (5, 6, 16)
         self._kept(index, body)
-        taken = self._taken(index) and now_us - claim.changed_us > ATTEND_US
+        taken = self._taken(index) and now_us - claim.changed_us > ATTEND_US and pins == claim.pins
         others = self.bench.metered or any(each.get("Doubled") for each in self.bench.pins[1:2])
         mixed = pins.get("Doubled") and others  # of several families the first is read on
         if taken and not mixed and not writes and index + 1 not in self.bench.deaf:
@@ -224,7 +225,8 @@ class Claims:
 
     def mistaken(self, index: int, now: int) -> bool:
         """Whether it may have taken a copy of a reply for the next one."""
-        return self.bench.types[index] in ONE_WORD and now - self.doubled_us < CALM_US
+        copied_us = max(self.doubled_us, self.bench.panel_us)  # or what a panel has asked for
+        return self.bench.types[index] in ONE_WORD and now - copied_us < CALM_US
 
     def scan(self, index: int, hz: float, *, driven: bool, looks: bool) -> None:
         """After a scan; the true speed of the shaft."""
@@ -364,7 +366,9 @@ class Claims:
         since = CALM_US if len(self.claims) > 3 else CALM_US // 2  # a restart has stopped all drives before
         unit = self.judge.units[index]
         quiet = now - max(claim.changed_us, unit.unknown_us, unit.refuses_us) > since
-        quiet = quiet and not self.bench.models[index].local  # the stop before SpeedOnly is repeated until it is obeyed
+        # the stop before SpeedOnly is repeated until it is obeyed, or others are proved to be in command
+        quiet = quiet and not (self.bench.models[index].local or self.bench.strangely)
+        quiet = quiet and not self.bench.shows("StopOverdue", index)
         return bool(alone and quiet and self.bench.shows("CommOk", index) and self.bench.reason(index) == "SPEED_ONLY")
 
     def _refreshed(self, now_us: int, index: int, claim: Claim) -> None:
@@ -376,6 +380,7 @@ class Claims:
         if self.bench.pins[index] != claim.pins:  # a stop pin that has just risen
             return
         if late or asks or not (self._steady(index, claim) or self._supplies(index, claim)):
+            claim.writes.extend([0] * 6)  # these may be stops
             return
         first = claim.writes[0] if period else claim.writes[-2]
         since = max(claim.changed_us, self.judge.units[index].unknown_us, claim.driven_us or 0, claim.begun_us)
@@ -459,9 +464,8 @@ class Claims:
             restarted = self.judge.units[index].unknown_us > now - CALM_US // 5 and not pins.get("Left")
             again = now - claim.unwilling_us < ATTEND_US  # it has ignored the last one, and gets the next
             claim.stop_us = now + RESTART_US * restarted + ATTEND_US * (left or again)
-            plain = (
-                claim.permitted and not restarted and not left and self.attended(index) and self.well(index, ATTEND_US)
-            )
+            plain = claim.permitted and not restarted and not left and self.attended(index)
+            plain = plain and self.well(index, ATTEND_US) and bench.shows("CommOk", index)
             claim.armed_us = now if plain and claim.written_us < now else None
         if claim.stop_us is not None:
             most = 1000 * int(bench.number("WorstStopMs", index)) + 3 * max(self.judge.late) + late + 150_000
@@ -513,9 +517,15 @@ class Claims:
             self.trips[index].look(claim.changed_us)
             self._stands(index, claim)
         period, steady = self._period(index), self._steady(index, claim)
-        missed = period and steady and now - claim.written_us > period + REFRESH_US and len(bench.models) < 8
+        missed = (
+            period
+            and steady
+            and now - claim.written_us > period + REFRESH_US + 2 * round_us(bench)
+            and len(bench.models) < 8
+        )
         dead = [i for i, each in enumerate(self.judge.units) if now - each.away_us < CALM_US]
         missed = missed and now - self.judge.slow_us > CALM_US and not dead  # stops that are not answered come first
+        missed = missed and now - self.judge.counts.asked_us > REFRESH_US  # parameters have their turn, too
         self._once(index, "refreshes", bad=bool(missed))
         fast = len(bench.models) < 8 and self.well(index, CALM_US) and max(self.judge.late) <= 50_000
         age = bench.number("StatusAgeMs", index)
@@ -559,6 +569,7 @@ class Claims:
         bench, now = self.bench, self.bench.now
         pins = bench.pins[index]
         elsewhere = pins.get("Address") != index + 1 or pins.get("SupplyOff") or bench.lineless
+        elsewhere = elsewhere or bench.strangely  # what it is has to be proved before its stop
         if bench.hears(index) or not self.attended(index) or elsewhere:
             claim.heard_us = now
         deaf = [unit - 1 for unit in bench.deaf]
@@ -663,7 +674,7 @@ class Claims:
         units = enumerate(self.judge.units)
         turns = [self.bench.turn_round(i) for i, each in units if now - each.away_us < CALM_US]
         slow = sum(ASKS * QUARTER * 1000 * turn for turn in turns if turn > UNHURRIED_MS)  # all the dead have a quarter
-        forgotten = now - claim.sent_us > PROBE_US + slow and now - unit.unknown_us > 0
+        forgotten = now - claim.sent_us > PROBE_US * (1 + (len(turns) > 3)) + slow and now - unit.unknown_us > 0
         elsewhere = any_of((*ASTRAY, "SupplyOff"), pins) or pins.get("Address") != index + 1
         if elsewhere or self.bench.faults.lost:  # a probe that is lost is not seen here
             claim.sent_us = now
@@ -694,11 +705,12 @@ class Claims:
         shown = (block["TheLine.AllOnline"], block["TheLine.OnlineCount"])
         self._once(0, "all online", bad=good and shown != (True, len(units) + bench.metered), seen=shown)
         error = block["TheLine.ErrorID"]
-        self._once(0, "line", bad=good and error not in LINE_ERRORS, seen=("ErrorID", error))
+        began = max(self.judge.units[i].unknown_us for i in units)
+        old = error == FOREIGN and now - began < FOREIGN_US  # refusals of another make at an address are of nobody
+        self._once(0, "line", bad=good and error not in LINE_ERRORS and not old, seen=("ErrorID", error))
         strange = block["TheLine.ForeignFrames"]
         assert isinstance(strange, int)
         most = LATE_ECHOES if any(one.o.late_per_1000 for one in bench.models) else 0
-        began = max(self.judge.units[i].unknown_us for i in units)
         forgotten = good and now - began > CALM_US + 1_000_000  # echoes that a restart has cut in two
         self._once(0, "strange", bad=forgotten and strange > most, seen=(strange, "foreign frames"))
         self._strangers(strange)

@@ -19,7 +19,7 @@ STATUS = alike(
     {"ATV312": 3201, "CHF": 0x1001, "GD200A": 0x2100, "JSCC": 0x2001, "MX2": 0x1000, "PF4": 0x2100, "SN300G5": 0x0010}
 )
 PARAMETER = alike({
-    "ATV312": 9001, "CHF": 0x0007, "GD200A": 0x0004, "JSCC": 0x0012, "MX2": 0x144D, "PF4": 0x0025, "PF4M": 0x012D,
+    "ATV312": 9001, "CHF": 0x0007, "GD200A": 0x0004, "JSCC": 0x0012, "MX2": 0x144D, "PF4": 0x0025, "PF4M": 0x0130,
     "PF525": 0x002D, "SN300G5": 0x0200,
 })  # fmt: skip
 """Before two that its manual lists."""

@@ -154,5 +154,5 @@ class Gd200a(Drive):
 
 
 def stores(body: bytes) -> bool:
-    """Whether a request without checksum stores something: a function code without the bit for RAM."""
-    return body[1] in (6, 16) and body[2] < 0x20
+    """Whether a request without checksum stores something: a function code, groups 0 to 14, without the bit for RAM."""
+    return body[1] in (6, 16) and body[2] < 0x10

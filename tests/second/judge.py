@@ -425,7 +425,8 @@ class Judge:
         if away or pins.get("Restart"):
             unit.unknown_us = now
         forbidden = bench.models[index].o.forbidden
-        if forbidden and STATUS[bench.types[index]] in forbidden:
+        busy = bench.models[index].o.busy_refuses == "all" and now < bench.models[index].busy_us
+        if busy or (forbidden and STATUS[bench.types[index]] in forbidden):
             unit.refuses_us = now
         else:
             unit.reads_us = now
@@ -478,6 +479,8 @@ class Judge:
         if len(deaf) > 1 and max(deaf) > 1000 * UNHURRIED_MS:
             most += STOP_TRIES * 2 * sum(deaf)  # all attempts of all of them, each with the silence after it
         most += LATE_US if any(each.o.late_per_1000 for each in bench.models) else 0
+        if crowded(bench):  # each of the others has its attempts, too
+            most = max(most, 1600 * bench.promised_cut)
         if shared:
             most = SHARED_SCANS * max(self.late)
         elif len(self.units) == 1 and not slow:

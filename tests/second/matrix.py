@@ -17,7 +17,7 @@ from tests.second import pairs
 from tests.second.bench import Second
 from tests.second.drive import Drive
 from tests.second.events import AIMED, EVENTS, FAULT, LONG, Event
-from tests.second.figures import FOREIGN, path_us
+from tests.second.figures import FOREIGN, crowded, path_us
 from tests.second.pf4 import VARIANTS, alike
 from tests.second.station import ALONE, FAMILIES, RTU_ONLY, SIZES, types_of
 
@@ -250,11 +250,12 @@ class Run:
     def ready(self, index: int = 0) -> bool:
         """Wait until the block would start its drive, or without its command, until it reads it."""
         b = self.bench
-        most = READY_MS + self.judge.late_us(index) // 1000
+        most = READY_MS * (1 + crowded(b)) + self.judge.late_us(index) // 1000  # it has to answer 20 times before
         if index or self.by_bus:
             return b.wait(lambda: b.shows("Ready", index) and b.shows("StopConfirmed", index), most)
         good = b.wait(lambda: b.shows("CommOk", index), most)
         b.run(2000)  # stops of a restart, which may end what terminals run
+        b.wait(lambda: not b.shows("StopOverdue", index), most)  # one that is refused ends when standstill is read
         return good
 
     def at_speed(self, index: int = 0) -> bool:

@@ -2,7 +2,7 @@
 
 from typing import TYPE_CHECKING
 
-from tests.second.figures import ASTRAY, ATTEND_US, BOOT_US
+from tests.second.figures import ASTRAY, ATTEND_US, BOOT_US, JOG_ENDS, JOG_US, TAKEN, round_us
 from tests.second.frames import runs
 from tests.second.observer import MOVES, STOPPING, any_of, both, spoilt
 from tests.second.pf4 import alike
@@ -25,6 +25,8 @@ WAYS = alike({"PF4": 0x30, "SN300G5": 3})
 """Bits of the run word for both directions, where each has its own."""
 FINISH_US = 500_000
 """A reset of several writes is finished although its fault has gone; a stop that is over may be followed by another."""
+AGAIN_US = 4_000_000
+"""Within this time after a second block has left its slot a drive gets its own block's stop again."""
 OVERDUE_US = 1_500_000
 """After StopWithinMs, until a motor that is not shown at standstill is shown as overdue."""
 READING = 5
@@ -51,7 +53,9 @@ class Orders:
         """Nothing asked or stopped, and StopConfirmed, before this scan; what was answered; whether it has run."""
         self.asked_before = self.reset_before = self.moved = self.owed = True
         self.resets = self.reading = False
-        self.fault_us = self.back_us = -FINISH_US
+        self.fault_us = self.back_us = self.moved_us = -FINISH_US
+        self.taken_us = -AGAIN_US
+        """When its slot or its address was last another's, too."""
         self.astray_us: int | None = None
         self.idle_us: int | None = None
         """Since when it is to stand, and is not shown so."""
@@ -97,6 +101,7 @@ class Orders:
         """Nobody calls its block alone: soon it has no run any more, and the line owes its stop."""
         now = self.bench.now
         self.astray_us = now if self.astray_us is None else self.astray_us
+        self.taken_us = now if any_of(TAKEN, self.bench.pins[self.index]) else self.taken_us
         self.back_us, self.idle_us, self.reading, self.before = now, None, False, ()
         if now - self.astray_us > ATTEND_US:
             self.wish, self.free, self.confirmed, self.owed = "", False, False, True
@@ -108,7 +113,8 @@ class Orders:
                 reference = frame.data[1:4] == REFERENCE[self.kind]
                 run = runs(self.kind, frame.data)
                 self.referred, self.commanded = self.referred or reference, self.commanded or run
-                if self.owed and not (run or reference):
+                alone = self.bench.now - self.taken_us > AGAIN_US // 2
+                if self.owed and alone and not (run or reference):
                     self.owed, self.back_us = False, self.bench.now
         self.acknowledged = len(self.bench.acknowledged)
         pins = self.bench.pins[self.index]
@@ -120,7 +126,8 @@ class Orders:
         stops = not pins["Enable"] or any_of(STOPPING, pins) or spoilt(pins) or both(pins)
         stops = stops or self._shows("Fault") or not self._shows("CommOk")
         self.ran = self.ran or (self.commanded and self._shows("Running"))
-        if stops or wish != self.wish or (self.ran and not self._shows("Running")):
+        copied = self.judge.claims.mistaken(self.index, self.bench.now)  # a word of another register shows nothing
+        if stops or wish != self.wish or (self.ran and not self._shows("Running") and not copied):
             self.wish, self.referred, self.commanded, self.ran = "", False, False, False
         if asked and not self.asked_before and self.free and not stops and self.confirmed:
             self.wish, self.referred, self.commanded, self.ran = wish, False, False, False
@@ -141,7 +148,9 @@ class Orders:
         run, ways = runs(self.kind, data), WAYS.get(self.kind, 0)
         both_ways = run and bool(ways) and data[-1] & ways == ways
         self._once("both ways", bad=both_ways, seen=(data.hex(),))
-        outside = self.owed or self.bench.now - self.back_us < FINISH_US or bool(self.judge.asked)
+        finish_us = FINISH_US + (JOG_US + round_us(self.bench)) * (self.kind in JOG_ENDS)  # which have two stops
+        outside = self.owed or self.bench.now - self.back_us < finish_us or bool(self.judge.asked)
+        outside = outside or self.bench.now - self.taken_us < AGAIN_US
         reads = self.reading and pins.get("MonitorOnly") and not outside
         self._once("only reads", bad=bool(reads), seen=(data.hex(),))
         if data[1:4] == REFERENCE[self.kind]:
@@ -160,7 +169,9 @@ class Orders:
         self.moved = bool(pins.get("Restart")) or (
             not confirmed and (self.moved or self._shows("Running") or self.commanded)
         )
-        boots = bench.now < max(unit.restarted_us + BOOT_US, unit.back_us) or pins.get("Address") != self.index + 1
+        elsewhere = pins.get("Address") != self.index + 1
+        self.moved_us = bench.now if elsewhere else self.moved_us  # another unit has its time to boot, too
+        boots = elsewhere or bench.now < max(max(unit.restarted_us, self.moved_us) + BOOT_US, unit.back_us)
         tripped = self._shows("Fault") and self._shows("ZeroSpeed")  # its stop stays open, and is not overdue
         away = any_of(("MonitorOnly", "SpeedOnly", "SupplyOff", "Restart"), pins) or boots or tripped
         idle = self.moved and not (self.wish or confirmed or away)

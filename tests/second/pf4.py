@@ -241,4 +241,4 @@ class Pf525(Pf4):
 
 def stores(body: bytes) -> bool:
     """Whether a request without checksum may store something: a write to a parameter."""
-    return body[1] == 6 and body[2] < 0x20
+    return body[1] == 6 and body[2] < 4

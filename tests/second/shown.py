@@ -86,7 +86,8 @@ class Shown:
         if hz == 0 or self.reverse != (hz < 0):
             self.reverse, self.turned_us = hz < 0, bench.now
         fault, trips = bench.shows("Fault", index), self.judge.claims.trips[index]
-        if fault and not self.fault and trips.first and trips.alone:
+        alone = trips.first and trips.alone and not self.judge.claims.mistaken(index, bench.now)
+        if fault and not self.fault and alone:
             now = (
                 bench.out("OutputFrequencyHz", index),
                 bench.out("OutputCurrentA", index),
@@ -103,7 +104,7 @@ class Shown:
         elif bench.pins[index].get("Address") != index + 1:
             self.began_us = 0  # the block has forgotten it
         known = self.began_us > max(self.left_us, self.judge.units[index].restarted_us)
-        if fault and not self.fault and trips.first and trips.alone and known:
+        if fault and not self.fault and alone and known:
             took, shown = (bench.now - self.began_us) // 1000, self._out("FirstFaultMs")
             self._once("first fault's time", bad=abs(took - shown) > LAG_US // 1000, seen=(shown, "of", took, "ms"))
         self._kinds(stopping=state == self.state == STOPPING)

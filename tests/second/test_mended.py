@@ -353,3 +353,38 @@ def test_a_motor_is_watched_whatever_its_time_to_stop(within: int, ms: int) -> N
     b.put(0, StopWithinMs=within).release().run(ms)
     assert b.models[0].motor.hz(b.now)
     assert not b.contact
+
+
+@pytest.mark.parametrize("pins", [{}, {"SpeedOnly": True}, {"MonitorOnly": True}])
+def test_a_stop_that_another_block_has_left_in_the_slot_is_written_over(pins: dict[str, bool]) -> None:
+    """It may have the same number, and no function code yet: it was never sent, and the contact stayed open."""
+    b = Second(*types_of("CHF", 3, ascii_=False), pins=pins)
+    b.run(6000)
+    b.put(0, RunForward=not pins).run(1000)
+    b.other(on=True, address=1)
+    b.run(1000)
+    b.other(on=False)
+    assert b.wait(lambda: not b.shows("StopOverdue") and (pins or b.shows("StopConfirmed")), 12_000)
+
+
+def test_what_another_make_was_asked_on_the_slot_says_nothing_of_the_drive() -> None:
+    """The refusal of its first read passed for one of this block's own: another drive, until its address changed."""
+    b = Second(*types_of("PF4", 3, ascii_=False))
+    b.wait(lambda: b.shows("Ready"), 9000)
+    b.other(on=True, address=1)
+    b.run(2000)
+    assert b.reason() == "SHARED"
+    b.other(on=False)
+    assert b.wait(lambda: b.shows("Ready"), 9000)
+
+
+def test_a_stop_pin_takes_the_reference_back_although_the_stop_is_refused() -> None:
+    """It waited for the stop, which a drive that terminals run refuses for as long as it turns."""
+    refuses = {"SN300G5": {"not_in_command": "refuses"}}
+    b = Second("SN300G5", settings={"b1_02": 1}, pins={"SpeedOnly": True}, options=refuses)
+    b.wait(lambda: b.models[0].reference_hz, 9000)
+    b.models[0].terminal(True, b.now)
+    b.run(3000)
+    b.put(0, Enable=False).run(2000)
+    assert b.models[0].reference_hz == 0.0
+    assert not b.shows("StopOverdue")
