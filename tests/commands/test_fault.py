@@ -55,6 +55,26 @@ ATV312: dict[str, Row] = {
     "SOF": (24, ("unstable", "load drives"), ("FLG",)),
     "SCF": (32, ("short",), ("cable", "insulation")),
 }
+# Goodrive200A, V2.4, 8.5, pages 112 to 116
+GD200A: dict[str, Row] = {
+    "OUt1": (1, ("fast", "IGBT module", "interference", "wires", "earth"), ("ramp up", "power unit", "wires")),
+    "OC2": (5, ("mains are too low", "phase lost", "stall"), ("ramp longer", "larger drive", "turns freely")),
+    "OV3": (9, ("energy back", "braking"), ("ramp down longer", "turning motor", "braking unit or resistor")),
+    "UV": (10, ("mains", "stall"), ("mains", "settings")),
+    "OL1": (11, ("rated current", "stalls"), ("mains", "rated current", "torque")),
+    "OL2": (12, ("fast", "again", "mains", "heavy", "too small"), ("ramp up", "restart", "larger drive", "fits")),
+    "SPO": (14, ("U, V and W", "uneven"), ("output wiring", "cable")),
+    "OH2": (16, ("duct", "fan", "hot", "too long"), ("duct", "cooler")),
+    "CE": (18, ("bit rate", "line", "address", "interference"), ("bit rate", "wiring", "address", "shield")),
+    "tE": (20, ("not fit", "set wrong", "too long"), ("plate", "uncouple", "two thirds")),
+    "EEP": (21, ("written or read", "EEPROM"), ("STOP/RST", "main control board")),
+    "bCE": (23, ("transistor", "resistor"), ("braking unit", "resistor")),
+    "END": (24, ("longer",), ("supplier",)),
+    "ETH2": (33, ("short to earth", "current detection", "another power"), ("Hall", "main control board")),
+    "LL": (36, ("underload",), ("load",)),
+}
+# SN300G5, resetting the communication fault CE, and notes (2) and (3)
+SN300G5: dict[str, Row] = {"CE": (33, ("line", "key"), ("line", "off and on", "2 s", "H5-05"))}
 
 
 def fault(*words: str) -> Result:
@@ -68,6 +88,8 @@ def fault(*words: str) -> Result:
         ("rockwell_powerflex_4", PF4),
         ("rockwell_powerflex_400", PF4),
         ("schneider_altivar_312", ATV312),
+        ("invt_gd200a", GD200A),
+        ("shuen_sn300g5", SN300G5),
     ],
 )
 def test_causes_and_remedies_say_what_the_table_says(family: str, typed: dict[str, Row]) -> None:
@@ -93,10 +115,18 @@ def test_a_code_is_found_by_its_display_and_as_the_bus_gives_it() -> None:
     assert "520-UM001" in result.stdout
 
 
+def test_a_fault_of_which_nothing_was_read_says_so() -> None:
+    page = (PAGES / "SN300G5_Drive.md").read_text(encoding="utf-8").partition("## What a fault means")[2]
+    assert "Where a cell is empty, nothing was read: see the drive's own manual." in page
+    assert "none in the map; see the drive's own manual" in fault("sn300g5", "OC").stdout
+    assert "none in the map; see the drive's own manual" in fault("mx2", "E01").stdout
+    assert "The map has no list of fault codes" in (PAGES / "CHF_Drive.md").read_text(encoding="utf-8")
+
+
 def test_what_clears_it_is_the_reset_of_the_family_unless_only_power_does() -> None:
     clears = {one.code: one.clears for one in advice(load(catalog.folder() / "rockwell_powerflex_525.yaml"))}
     assert (clears[13], clears[94]) == ("`FaultReset`", "switch the drive off and on")
-    assert "not over the bus" in fault("sn300g5", "UV1").stdout
+    assert "nothing on the bus; reset it at the drive" in fault("sn300g5", "UV1").stdout
 
 
 def test_an_unknown_code_ends_with_2_and_the_nearest() -> None:

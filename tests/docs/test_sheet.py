@@ -31,7 +31,7 @@ def cells(text: str, id_: str) -> list[str]:
 
 FILLED = {
     ("pf525", "--address", "3", "--baud", "19200", "--watchdog", "1"): {
-        "P046": ["**3 = Serial/DSI**", "", "3 at 002EH"],
+        "P046": ["**3 = Serial/DSI**", "1 = Keypad", "3 at 002EH"],
         "C124": ["**3**", "100", "3 at 007CH"],
         "C123": ["**4 = 19200 bit/s**", "3 = 9600 bit/s", "4 at 007BH"],
         "C127": ["**0 = RTU 8-N-1**", "0 = RTU 8-N-1", "0 at 007FH"],
@@ -45,7 +45,9 @@ FILLED = {
     ("gd200a", "--format", "8N2", "--baud", "38400"): {
         "P14.01": ["**5 = 38400 bit/s**", "4 = 19200 bit/s", "5 at 0E01H"],
         "P14.02": ["**3 = 8N2, RTU**", "1 = 8E1, RTU", "3 at 0E02H"],
-        "P14.04": ["______ s", "0.0 s", "x 0.1 s at 0E04H"],
+        "P14.04": ["______ s: 0.0 to 60.0 s", "0.0 s", "x 0.1 s at 0E04H"],
+        "P00.05": ["as delivered", "0.00 Hz", "x 0.01 Hz at 0005H"],
+        "P00.11": ["______ s: 0.0 to 3600.0 s", "depends on the model", "x 0.1 s at 000BH"],
         "P00.03": ["______ Hz", "50.00 Hz", "x 0.01 Hz at 0003H"],
     },
     ("mx2", "--watchdog", "0.5"): {
@@ -53,7 +55,13 @@ FILLED = {
         "C071": ["**05 = 9600 bit/s**", "05 = 9600 bit/s", "5 at 144BH (wire 144AH)"],
         "C077": ["**0.50 s**", "", "50 at 1451H (wire 1450H)"],
     },
-    ("altivar_312",): {"TTO": ["______ s: 0.1 to 30.0 s", "10.0 s", "x 0.1 s at 1775H"]},
+    ("altivar_312", "--baud", "9600"): {
+        "Fr1": ["**Mdb = Modbus**", "AI1 = Analog input AI1", "164 at 20DDH"],
+        "tbr": ["**9.6 = 9600 bit/s**", "19.2 = 19200 bit/s", "28 at 1773H"],
+        "ttO": ["______ s: 0.1 to 30.0 s", "10.0 s", "x 0.1 s at 1775H"],
+        "dEC": ["______ s", "3 s", "at 232AH"],
+        "FLO": ["as delivered", "nO", ""],
+    },
     ("jscc", "--baud", "9600"): {
         "FA.01": ["**2 = 9600 bit/s**", "3 = 19200 bit/s", "2"],
         "FA.03": ["**2 = RTU mode**", "2 = RTU mode", "2"],
@@ -77,7 +85,7 @@ def test_every_setting_is_filled_in(words: tuple[str, ...]) -> None:
         (("gd200a", "--format", "7E1"), "8E1, 8N1, 8O1, 8N2, 8E2, 8O2, not 7E1"),
         (("pf525", "--watchdog", "61"), "C126 takes 0.1 to 60.0 s in steps of 0.1 s, not 61 s"),
         (("pf525", "--watchdog", "0.25"), "not 0.25 s"),
-        (("gd200a", "--watchdog", "0"), "P14.04 takes steps of 0.1 s, not 0 s"),
+        (("gd200a", "--watchdog", "0"), "P14.04 takes 0.0 to 60.0 s in steps of 0.1 s, not 0 s"),
         (("pf525", "--watchdog", "soon"), "a number of seconds"),
         (("pf525", "--watchdog", "NaN"), "not NaN s"),
         (("pf525", "--watchdog", "1e999999"), "C126 takes 0.1 to 60.0 s"),
@@ -96,6 +104,15 @@ def test_each_sheet_has_every_setting_once(drive: Drive) -> None:
     text = keypad.page(drive, drive.prefix.lower(), line)
     for one in settings(drive):
         assert text.count(f"| [ ] | {one.keypad.code} ") == 1
+
+
+def test_limits_and_ramps_stand_together_and_what_stays_as_delivered_last() -> None:
+    groups = {
+        name: [each.setting.id for each in some] for name, some in keypad.rows(shipped.drives()["GD200A"]).items()
+    }
+    assert groups["Limits and ramps"] == ["P00.03", "P00.04", "P00.05", "P00.11", "P00.12"]
+    assert [*groups][-1] == "Leave as delivered"
+    assert groups["Leave as delivered"] == ["P01.19", "P07.04", "P08.47"]
 
 
 @every

@@ -39,7 +39,7 @@ def test_what_is_refused_is_refused_at_its_address_in_ram_too() -> None:
     drive = drives()["GD200A"]
     judge = Judge(drive)
     refused = {name: spans for name, _, spans in may_write(drive, plan(drive)).refused}
-    settings = [one.register for one in drive.settings if one.register is not None]
+    settings = [one.register for one in drive.settings if one.register is not None and not drive.adjusts(one)]
     assert {0x0001, 0x0003, 0x0006, 0x0E00} <= {*settings}
     for address in settings:
         for again in (address, address + 0x8000):
@@ -47,11 +47,21 @@ def test_what_is_refused_is_refused_at_its_address_in_ram_too() -> None:
             assert judge.result(Write(again, 1, unknown=True)) == "LINE_SETTING"
 
 
+def test_limits_and_ramps_may_be_written_though_a_person_sets_them_too() -> None:
+    free = {"GD200A": (0x0004, 0x0005, 0x000B, 0x000C), "ATV312": (0x0C21, 0x2329, 0x232A), "PF525": (0x29, 0x2A)}
+    for name, places in free.items():
+        drive = drives()[name]
+        refused = {name: spans for name, _, spans in may_write(drive, plan(drive)).refused}
+        for at in places:
+            assert not any(at in span for span in refused["LINE_SETTING"])
+            assert Judge(drive).result(Write(at, 1)) == "OK"
+
+
 def test_the_maximum_that_the_full_scale_is_compared_with_is_refused() -> None:
     drive = drives()["ATV312"]
     assert drive.operation.own_maximum is not None
     at = drive.operation.own_maximum.register
-    assert at not in {one.register for one in drive.settings}
+    assert at in {one.register for one in drive.settings if drive.adjusts(one)}
     refused = {name: spans for name, _, spans in may_write(drive, plan(drive)).refused}
     assert any(at in span for span in refused["LINE_SETTING"])
     assert Judge(drive).result(Write(at, 500, unknown=True)) == "LINE_SETTING"

@@ -21,8 +21,8 @@ LONG = 90
 """A longer list of values is not repeated on a sheet."""
 DAY_S = 86400
 """No watchdog counts as long."""
-TITLES = dict(zip(GROUPS, ("Access level", "Who commands, and how the motor runs", "Address, rate, format",
-                           "When the line is silent", "Limits", "Nothing to change"), strict=True))  # fmt: skip
+TITLES = dict(zip(GROUPS, ("Access level", "Who commands", "Address, rate, format", "When the line is silent",
+                           "Limits and ramps", "Leave as delivered"), strict=True))  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -105,7 +105,7 @@ def _count(one: Setting) -> str:
 
 def _open(drive: Drive, one: Setting, *, filled: bool) -> str:
     """What a person has to choose: what is allowed, and room for it."""
-    if one.needed is None:
+    if one.needed is None and (one.factory is not None or not one.keypad.unit or not filled):
         return "as delivered"
     own = watchdog(drive)
     said = one.allowed if len(one.allowed) < LONG or not filled else "one of its values"

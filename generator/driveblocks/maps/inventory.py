@@ -89,7 +89,8 @@ def _able(drive: Drive) -> Iterator[str]:
         if "w" in (row.access or section.access) and not row.unused
         for address in row.address
     }
-    if any("w" in area.access for area in drive.areas) or written - moving - {each.register for each in drive.settings}:
+    kept = {each.register for each in drive.settings if not drive.adjusts(each)}
+    if any("w" in area.access for area in drive.areas) or written - moving - kept:
         yield "parameters"
 
 

@@ -1592,6 +1592,11 @@ class Drive(Entry):
         found = rows[index] if index >= 0 else None
         return found if found is not None and address in found[1].address else None
 
+    def adjusts(self, one: Setting) -> bool:
+        """Whether a setting is a limit or a ramp that nothing needs: a PLC may write it."""
+        unit = one.display.unit if one.display else None
+        return one.needed is None and (unit in ("Hz", "s") or one.id == self.operation.lower_limit)
+
     def register_at(self, address: int, use: Use = "r") -> Register | None:
         """The row that describes an address, or None; of two that share it, the one for this use."""
         found = self.row_at(address, use)

@@ -38,7 +38,7 @@ def _advice(drive: Drive, fault: Fault) -> Advice:
 def _clears(drive: Drive, fault: Fault) -> str:
     if fault.power_cycle:
         return "switch the drive off and on"
-    return "`FaultReset`" if "fault_reset" in words(drive).named else "not over the bus"
+    return "`FaultReset`" if "fault_reset" in words(drive).named else "nothing on the bus; reset it at the drive"
 
 
 def asked(drive: Drive, word: str) -> list[Advice]:

@@ -10,7 +10,7 @@ from driveblocks.meaning.citation import Citation, cited
 
 GROUPS = ("access", "commands", "line", "silence", "limits", "rest")
 """The order in which a person meets settings: access level; who commands, and how the motor runs; address, rate and
-format; what a silent line does; limits; what need not be changed."""
+format; what a silent line does; limits and ramps; what need not be changed."""
 
 
 @dataclass(frozen=True)
@@ -181,7 +181,7 @@ def _group(drive: Drive, one: model.Setting) -> str:
         return "line"
     if one.id in _silence(drive):
         return "silence"
-    if one.id in (run.reference.maximum, run.lower_limit) or (own is not None and own == one.register):
+    if one.id == run.reference.maximum or (own is not None and own == one.register) or drive.adjusts(one):
         return "limits"
     return "line" if beside else "commands" if one.needed else "rest"
 

@@ -82,10 +82,15 @@ class Judge:
         steps = (step.register for command in operation.commands for step in command.first)
         commands = (command.register for command in operation.commands)
         own = operation.own_maximum
+        kept = {
+            one.register
+            for one in drive.settings
+            if one.needed or not (one.id == operation.lower_limit or (one.display and one.display.unit in ("Hz", "s")))
+        }
         self._known: dict[str, set[int | None]] = {
             "STORE_REGISTER": {drive.storage.register},
             "OWNED": {*_of_reference(drive), *commands, *steps},
-            "LINE_SETTING": {*(one.register for one in drive.settings), own.register if own else None},
+            "LINE_SETTING": {*kept, own.register if own else None},
         }
         self._writable = writable(drive)
         rows = sorted(

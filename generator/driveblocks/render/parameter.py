@@ -69,8 +69,8 @@ def may_write(drive: Drive, allowed: Plan) -> MayWrite:
 
 
 def _settings(drive: Drive) -> Iterator[int | None]:
-    """The registers of the settings, and of the maximum that the full scale is compared with."""
-    yield from (one.register for one in settings(drive))
+    """The registers of the settings but limits and ramps, and of the maximum that the full scale is compared with."""
+    yield from (one.register for one in drive.settings if not drive.adjusts(one))
     yield maximum.register if (maximum := own_maximum(drive)) else None
 
 

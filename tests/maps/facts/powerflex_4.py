@@ -39,7 +39,9 @@ fault code | 2101H
 """
 
 SETTINGS = {
-    "P036": (36, None, 5), "P038": (38, None, 5), "A103": (103, "3", None), "A104": (104, "100", None),
+    "P034": (34, "0.0 Hz", None), "P035": (35, "60 Hz", None), "P036": (36, None, 5), "P037": (37, "0", None),
+    "P038": (38, None, 5), "P039": (39, "10.0 s", None), "P040": (40, "10.0 s", None), "A092": (92, "0", None),
+    "A094": (94, "0", None), "A095": (95, "0", None), "A101": (101, "0", None), "A103": (103, "3", None), "A104": (104, "100", None),
     "A105": (105, "0", None), "A106": (106, "5.0 s", None), "A107": (107, "0", None),
 }  # fmt: skip
 """Register, factory setting, and the value that the bus needs."""

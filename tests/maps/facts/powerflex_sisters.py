@@ -57,8 +57,10 @@ PF40P = Sister(
     faults=MORE["40P"],
     hundredths=frozenset({8193}),
     settings={
-        "P036": (36, 5), "P038": (38, 5), "A103": (103, None), "A104": (104, None), "A105": (105, None),
-        "A106": (106, None), "A107": (107, None), "E207": (207, None), "E249": (249, 0),
+        "P034": (34, None), "P035": (35, None), "P036": (36, 5), "P037": (37, None), "P038": (38, 5),
+        "P039": (39, None), "P040": (40, None), "A092": (92, None), "A094": (94, None), "A095": (95, None),
+        "A101": (101, None), "A103": (103, None), "A104": (104, None), "A105": (105, None), "A106": (106, None),
+        "A107": (107, None), "E207": (207, None), "E249": (249, 0),
     },
     command="6 Logic In 1|7 Logic In 2|15 -",
     ERRATA="\nregister 2103H | 123 is 12.3 Hz | 12.3 Hz\n",
@@ -89,7 +91,8 @@ PF525 = Sister(
     faults=MORE["525"],
     hundredths=frozenset({8193, 8450, 8451}),
     settings={
-        "P046": (46, 3), "P047": (47, 3), "C121": (121, None), "C122": (122, 0), "C123": (123, None),
+        "P041": (41, None), "P042": (42, None), "P043": (43, None), "P044": (44, None), "P045": (45, None),
+        "P046": (46, 3), "P047": (47, 3), "A541": (541, None), "A543": (543, None), "A544": (544, None), "C121": (121, None), "C122": (122, 0), "C123": (123, None),
         "C124": (124, None), "C125": (125, None), "C126": (126, None), "C127": (127, None),
     },
     lacks=frozenset({81}),
