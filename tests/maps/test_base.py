@@ -45,7 +45,7 @@ def test_what_is_not_said_is_the_sisters_and_no_longer_read(tmp_path: Path) -> N
     sister = best.documents[0]
     assert (sister.id, sister.title, sister.trust) == ("acme", "Acme 100 communication manual", "sister")
     assert trust.rung(acme) == "read"
-    parts = ("commands", "reference", "status", "measures", "settings", "faults")
+    parts = ("commands", "reference", "status", "measures", "serial", "faults")
     assert trust.rung(best) == ", ".join(f"{one} sister" for one in parts)
     assert best.frames[0].document == "acme"
 
@@ -64,11 +64,21 @@ faults: {source: page 9}
     )
     assert trust.heard(best) == [
         f"{one}, sister (Acme 100 communication manual, Acme Drives): {names}"
-        for one, names in (("reference", "scale"), ("measures", "output frequency"), ("settings", "mode"))
+        for one, names in (("reference", "scale"), ("measures", "output frequency"), ("serial", "mode"))
     ]
     assert [one.source for one in best.sections] == ["page 7", "page 8"]
     assert best.operation.commands[2].writes[0].value == 3
     assert [code.name for code in best.faults.codes] == ["Overcurrent"]
+
+
+def test_what_was_printed_in_the_base_goes_with_its_source(tmp_path: Path) -> None:
+    source = "source: table 2, rung: derived, rule: by the table, printed: [bit 0]"
+    base = BASE.replace("equals: 1}], source: table 2}", f"equals: 1}}], {source}}}")
+    assert source in base
+    (kept,) = load(write(tmp_path, "", base)).operation.status
+    (own,) = load(write(tmp_path, "operation: {status: [{shows: running, source: page 8}]}\n", base)).operation.status
+    assert (kept.document, kept.rung, kept.rule, kept.printed) == ("acme", "derived", "by the table", ("bit 0",))
+    assert (own.document, own.rung, own.rule, own.printed) == (None, None, None, ())
 
 
 def test_rows_of_one_name_are_one_and_new_ones_follow(tmp_path: Path) -> None:

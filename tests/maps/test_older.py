@@ -1,18 +1,14 @@
-"""Maps of an earlier format, and keys of this one that nothing reads yet."""
+"""Maps of an earlier format, and keys where this one has none."""
 
 import re
-from pathlib import Path
 
 import pytest
-from tests.maps.test_base import BASE, write
+from tests.maps.test_base import BASE
 
-from driveblocks.diff.facts import compared
-from driveblocks.maps import view
 from driveblocks.maps.decode import build
-from driveblocks.maps.load import load, loads
+from driveblocks.maps.load import loads
 from driveblocks.maps.nodes import Scalar
 from driveblocks.maps.problem import MapError, Report
-from driveblocks.maps.revision import revision
 from driveblocks.maps.shape import OneOf
 
 
@@ -37,23 +33,6 @@ def test_what_is_no_longer_a_word_says_what_to_write() -> None:
     assert report.problems[0].right == "write `writes`, or the register of the reference under `fed_by`"
 
 
-RESERVED = (
-    ("means: frequency, source: table 1}", "means: frequency, source: table 1, printed: 0.01 Hz, rung: 2}"),
-    ("{code: 03H, name: Read registers,", "{code: 03H, name: Read registers, rung: {of: 3},"),
-)
-
-
-def test_keys_for_later_are_taken_and_change_nothing(tmp_path: Path) -> None:
-    more = BASE
-    for old, new in RESERVED:
-        assert old in more
-        more = more.replace(old, new, 1)
-    map_, plain = loads(more, "acme.yaml"), loads(BASE, "acme.yaml")
-    assert revision(map_) == revision(plain)
-    assert not [*compared(view.of_drive(plain, "acme"), view.of_drive(map_, "acme"))]
-    assert load(write(tmp_path, "", more)).prefix == "BEST"
-
-
-@pytest.mark.parametrize("wrong_key", ["pins: 1, ", "display: x, "])
-def test_elsewhere_they_are_unknown(wrong_key: str) -> None:
+@pytest.mark.parametrize("wrong_key", ["pins: 1, ", "display: x, ", "rung: read, ", "printed: [x], "])
+def test_keys_of_other_entries_are_unknown(wrong_key: str) -> None:
     assert "unknown key" in refused(BASE.replace("{code: 02H, name", f"{{{wrong_key}code: 02H, name"))[0]

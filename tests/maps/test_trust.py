@@ -44,7 +44,7 @@ def _drive(added: dict[str, str]) -> Drive:
 
 def test_what_names_no_document_is_read_in_the_manual() -> None:
     drive = _drive({})
-    many = {"commands": 5, "reference": 3, "status": 7, "watchdog": 2, "settings": 5, "faults": 4}
+    many = {"commands": 5, "reference": 3, "status": 7, "watchdog": 2, "serial": 3, "settings": 2, "faults": 4}
     assert trust.counted(drive) == {part: {"read": many[part]} if part in many else {} for part in trust.PARTS}
     assert (trust.second_hand(drive), trust.heard(drive), trust.rung(drive)) == (False, [], "read")
 
@@ -67,8 +67,8 @@ ONE_FACT = {
     "watchdog: reactions": "  feeds: writes\n",
     "watchdog: time": "time: {register: 0202H",
     "settings: H5-01": "    needed: {why: the address that the PLC uses}\n",
-    "settings: bit rate": "    setting: H5-02\n",
-    "settings: format": "    setting: H5-03\n",
+    "serial: bit rate": "    setting: H5-02\n",
+    "serial: format": "    setting: H5-03\n",
 }
 """Where `document:` goes, by the only fact that it is about: on a line of its own, or in a mapping on one line."""
 
@@ -91,6 +91,51 @@ def test_one_fact_of_a_motion_from_somebodys_driver_wants_the_check(fact: str) -
     assert (trust.second_hand(drive), trust.rung(drive)) == (True, f"{part} in use")
     assert trust.heard(drive) == [f"{part}, in use (Driver of a milling machine, Its user): {name.replace('_', ' ')}"]
     assert checked(drive) != checked(_drive({}))
+
+
+RUNG_OF_ITS_OWN = {
+    "reference: scale": ("          source: section 9.5 (I), 000FH bit 0\n", "transcribed"),
+    "commands: fault_reset": (', source: "section 9.5 (I), 0002H"', "sister"),
+    "status: standstill": ("  standstill:\n", "in_use"),
+    "watchdog: reactions": ("  feeds: writes\n", "transcribed"),
+    "settings: H5-01": ("    needed: {why: the address that the PLC uses}\n", "sister"),
+    "serial: format": ("    setting: H5-03\n", "sister"),
+}
+"""Where a rung goes, by the only fact that it is about."""
+
+
+@pytest.mark.parametrize("fact", RUNG_OF_ITS_OWN)
+def test_the_weakest_rung_decides_whether_the_manual_has_to_be_checked(fact: str) -> None:
+    (where, rung), (part, name) = RUNG_OF_ITS_OWN[fact], fact.split(": ")
+    blanks = where[: len(where) - len(where.lstrip())] + ("  " if where == STANDSTILL else "")
+    drive = _drive({where: f"{blanks}rung: {rung}\n" if where.endswith("\n") else f", rung: {rung}"})
+    (found,) = (one for one in trust.facts(drive) if one.trust != "read")
+    assert (found.part, found.name, found.trust, found.document) == (part, name, rung, None)
+    assert trust.second_hand(drive)
+    assert trust.shown(drive)["control" if part in trust.CONTROL else part] == trust.words(rung)
+    assert "rung" in _text({where: f"{blanks}rung"}).splitlines()[found.place[0] - 1]
+
+
+def test_what_is_derived_says_how() -> None:
+    drive = _drive({STANDSTILL: "    rung: derived\n    rule: running is what is not stopped\n"})
+    assert trust.heard(drive) == ["status, derived (running is what is not stopped): standstill"]
+    assert (trust.second_hand(drive), trust.shown(drive)["control"]) == (True, "derived")
+    fault = _drive({"{code: 02H, id: OV": ", rung: derived, rule: it is the next bit"})
+    assert trust.heard(fault) == ["faults, derived (it is the next bit): 02H"]
+    assert not trust.second_hand(fault)
+
+
+def test_a_rung_below_that_of_its_document_counts_and_a_better_one_does_not() -> None:
+    worse = _drive({STANDSTILL: "    document: guide\n    rung: in_use\n"})
+    assert trust.rung(worse) == "status in use"
+    assert trust.heard(worse)[0].startswith("status, in use (Fieldbus guide of the EX200")
+
+
+def test_a_printed_cell_changes_no_number() -> None:
+    plain, more = _drive({}), _drive({STANDSTILL: "    printed: [bit 0]\n"})
+    assert more.operation.standstill.printed == ("bit 0",)
+    assert (revision(more), checked(more)) == (revision(plain), checked(plain))
+    assert revision(_drive({STANDSTILL: "    rung: sister\n"})) != revision(plain)
 
 
 def test_what_one_register_says_is_trusted_no_further_than_its_table() -> None:

@@ -8,7 +8,7 @@ from tests.second.drive import Drive, Options, Refusal, Source
 
 CMD, LFR, CMI = 8501, 8502, 8504  # pages 19 and 20
 ETA, RFR, FRH, LCR, OTR, ETI, ULN = range(3201, 3208)  # pages 21 and 22
-HSP, LFT = 3104, 7121
+HSP, LFT, TSP = 3104, 7121, 3401
 NAMED = {
     "LAC": 3006, "FR1": 8413, "CHCF": 8401, "CD1": 8423, "RFC": 8411, "STT": 11201, "PST": 64002, "ADD": 6001,
     "TBR": 6003, "TFO": 6004, "TTO": 6005, "SLL": 7010,
@@ -242,6 +242,7 @@ class Atv312(Drive):
         ETI: _extended,
         ULN: lambda _, __: 4000,
         LFT: lambda self, _: self.code or 0,
+        TSP: lambda _, __: 128,  # page 26
     }
     MEASURES: ClassVar[dict[str, tuple[int, float]]] = {"OutputCurrentA": (LCR, 0.1)}  # page 21
 

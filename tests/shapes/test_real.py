@@ -53,7 +53,7 @@ def test_addresses_are_those_that_the_maker_prints(name: str) -> None:
 def test_what_the_makers_table_does_not_say_is_in_use_and_wants_a_check() -> None:
     altivar = drive("atv12")
     assert trust.rung(altivar) == (
-        "commands in use, status in use, settings transcribed, faults in use, other settings in use"
+        "commands in use, status in use, serial transcribed, faults in use, other settings in use"
     )
     assert trust.counted(altivar)["commands"] == {"read": 2, "in_use": 4}
     in_use = {one.name for one in trust.facts(altivar) if one.trust == "in_use"}

@@ -17,8 +17,8 @@ SINGULAR = {
 }  # fmt: skip
 WORDS = {
     "absent", "confidence", "corroborated", "document", "documents", "errata", "family", "frames", "id_forms", "manual",
-    "meaning", "name", "name_zh", "note", "notices", "numbering", "sections", "short", "source", "sources", "symbol",
-    "text_zh", "title", "vendor", "why", "wording", "zh", "zh_used",
+    "meaning", "name", "name_zh", "note", "notices", "numbering", "printed", "rule", "rung", "sections", "short",
+    "source", "sources", "symbol", "text_zh", "title", "vendor", "why", "wording", "zh", "zh_used",
 }  # fmt: skip
 """Keys that a person reads, or that are seen in the names of blocks and pins."""
 OWN = {"drive", "revision", "format", "prefix"}

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from math import ceil
 from typing import Any
 
-from driveblocks.docs import bus, chain, keypad, ladder, network, socket, states, sto, timing
+from driveblocks.docs import bus, chain, evidence, keypad, ladder, network, socket, states, sto, timing
 from driveblocks.docs.members import members
 from driveblocks.docs.pins import Pin, pins
 from driveblocks.maps import inventory, references, rivals, trust
@@ -160,7 +160,8 @@ def families(files: list[File], drives: list[Drive], checked: Checked, platforms
             "title": drive.family.en,
             "able": inventory.abilities(drive)[0],
             "turns_on": _turns_on(drive),
-            "rung": trust.rung(drive),
+            "trust": trust.shown(drive),
+            "checked": "yes" if trust.second_hand(drive) else "",
             "reports": ", ".join(_reported(drive)),
             "shows": ", ".join(_shown(drive, "yes")),
             "unscaled": ", ".join(_shown(drive, UNSCALED)),
@@ -173,6 +174,7 @@ def families(files: list[File], drives: list[Drive], checked: Checked, platforms
     return render(
         "docs/Families.md.j2",
         families=rows,
+        trusted=list(trust.SHOWN),
         platforms=platforms,
         files=names,
         wide=any("Chinese" in name for name in names),
@@ -279,6 +281,8 @@ def _page(drive: Drive, checked: Checked, values: Mapping[str, Any], own: Own, p
         "docs/Drive.md.j2",
         manual=context.title(drive),
         heard=trust.heard(drive),
+        places=evidence.places(drive),
+        documents=evidence.documents(drive),
         word=own.word or drive.prefix.lower(),
         measured=own.measured,
         edition=drive.manual.edition,

@@ -12,7 +12,7 @@ from driveblocks.maps.form import NUMBER
 from driveblocks.maps.model import Drive, ErrorCode, Manual, Pin, State, Text, Twin
 from driveblocks.maps.nodes import Entries, Items, Node, Scalar, told
 from driveblocks.maps.problem import Place, Report, Taken
-from driveblocks.maps.shape import EntryOf, ListOf, Shape, keys_of, required_of
+from driveblocks.maps.shape import EntryOf, ListOf, Shape, keys_of, required_of, told_last
 
 DEEPER = " > "
 """Between the names of a path in `without`."""
@@ -170,13 +170,11 @@ def _both(shape: Shape, base: Node, mine: Node | None, own: _Own) -> Node:
 
 
 def _entries(shape: EntryOf, base: Entries, mine: Entries | None, own: _Own) -> Entries:
-    """Key by key; its document is the sister's manual, unless the map gives a source of its own."""
+    """Key by key; its document is the sister's manual; a source that the map gives replaces all that goes with one."""
     known, said = keys_of(shape.cls), mine.entries if mine else {}
     entries = {}
     for key, (name, value) in base.entries.items():
-        if key not in known:
-            entries[key] = (name, said[key][1] if key in said else value)
-        elif key != "document" or "source" not in said or key in said:
+        if key not in {"document", *told_last(shape.cls)} or "source" not in said or key in said:
             entries[key] = (name, _both(known[key].shape, value, said[key][1] if key in said else None, own))
     entries |= {key: each for key, each in said.items() if key not in base.entries}
     return Entries(entries if "source" in said else _sourced(shape, entries, own), mine.at if mine else base.at)

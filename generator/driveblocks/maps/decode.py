@@ -9,7 +9,7 @@ from driveblocks.maps.form import Form
 from driveblocks.maps.nodes import Entries, Items, Node, Scalar
 from driveblocks.maps.older import INSTEAD
 from driveblocks.maps.problem import Report
-from driveblocks.maps.shape import EntryOf, Key, ListOf, OneOf, Shape, keys_of, required_of, reserved_of
+from driveblocks.maps.shape import EntryOf, Key, ListOf, OneOf, Shape, keys_of, required_of
 
 _NUMERIC = re.compile(r"-?(0|[1-9][0-9]*)(\.[0-9]+)?")
 _BAD: Any = object()
@@ -113,7 +113,7 @@ def _entry(shape: EntryOf, node: Node, report: Report, name: str) -> Any:
         report.add(node.at, f"`{name}` is {_kind(node)}", f"it must be a mapping with the keys {keys}")
         return _BAD
     known = keys_of(shape.cls)
-    meant = _unknown_keys(shape.cls, known, node, report, name)
+    meant = _unknown_keys(known, node, report, name)
     places = {key: value.at for key, (_, value) in node.entries.items() if key in known}
     values = {key: build(known[key].shape, node.entries[key][1], report, key) for key in places}
     good = {key: value for key, value in values.items() if value is not _BAD}
@@ -124,10 +124,10 @@ def _entry(shape: EntryOf, node: Node, report: Report, name: str) -> Any:
     return _BAD if lacking else shape.cls(at=node.at, keys=places, **good)
 
 
-def _unknown_keys(cls: type, known: dict[str, Key], node: Entries, report: Report, name: str) -> set[str]:
+def _unknown_keys(known: dict[str, Key], node: Entries, report: Report, name: str) -> set[str]:
     """Note the keys that the format does not have; return those of the format that were probably meant."""
     meant: set[str] = set()
-    for text in node.entries.keys() - known.keys() - {*reserved_of(cls)}:
+    for text in node.entries.keys() - known.keys():
         key = node.entries[text][0]
         if key.refused:
             continue

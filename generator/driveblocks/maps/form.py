@@ -233,6 +233,12 @@ NUMBER = _form(
     "write a decimal number such as 500, or hexadecimal such as 1EH",
     numeric=True,
 )
+CELL = _form(
+    "printed cell",
+    r"(?!.*[.;!?] )\S(.{0,46}\S)?",
+    str,
+    "write label and value as printed, 48 characters at most, no sentence",
+)
 COUNT = _form("count", r"[1-9][0-9]{0,5}", int, "write a decimal number from 1 to 999999", numeric=True)
 WRITES = _form("number of writes", r"[1-9][0-9]{0,8}", int, "write a decimal number up to 999999999", numeric=True)
 DECIMAL = _form(

@@ -4,12 +4,13 @@ import os
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 
-from driveblocks.maps import counts, view
+from driveblocks.maps import counts, trust, view
 from driveblocks.maps.counts import Counts, Tally
 from driveblocks.maps.model import Drive
 
 BEGIN, END = "<!-- drives:begin -->", "<!-- drives:end -->"
 FRONT_BEGIN, FRONT_END = "<!-- front:begin -->", "<!-- front:end -->"
+TRUST_BEGIN, TRUST_END = "<!-- trust:begin -->", "<!-- trust:end -->"
 
 _FRONT = ("maker", "drives, each with its page", "misprints found", "left open by the manuals")
 _WORDS = {
@@ -25,16 +26,19 @@ _COLUMNS = (
 
 
 def update(text: str, maps: Mapping[Path, Drive], folder: Path) -> str:
-    """A page's text with the part between its markers made again; `folder` is that of the page, for its links.
+    """A page's text with each part between its markers made again; `folder` is that of the page, for its links.
 
     Raises ValueError without markers.
     """
-    for begin, end, made in ((BEGIN, END, table), (FRONT_BEGIN, FRONT_END, front)):
-        before, found, rest = text.partition(begin)
+    whole, known = text, False
+    for begin, end, made in ((BEGIN, END, table), (FRONT_BEGIN, FRONT_END, front), (TRUST_BEGIN, TRUST_END, trusted)):
+        before, found, rest = whole.partition(begin)
         _, closed, after = rest.partition(end)
         if found and closed:
-            return f"{before}{begin}\n{made(maps, folder)}{end}{after}"
-    raise ValueError(f"the page lacks the markers {BEGIN} and {END}")
+            whole, known = f"{before}{begin}\n{made(maps, folder)}{end}{after}", True
+    if not known:
+        raise ValueError(f"the page lacks the markers {BEGIN} and {END}")
+    return whole
 
 
 def front(maps: Mapping[Path, Drive], folder: Path) -> str:
@@ -48,6 +52,14 @@ def front(maps: Mapping[Path, Drive], folder: Path) -> str:
         links = ", ".join(_link(path, drive, folder) for path, drive in drives)
         errata, absent = (str(sum(getattr(one, key) for one in held)) for key in ("errata", "absent"))
         rows.append((view.markdown(maker), links, errata, absent))
+    return "".join(f"| {' | '.join(row)} |\n" for row in rows)
+
+
+def trusted(maps: Mapping[Path, Drive], folder: Path) -> str:
+    """One line for each drive: how far its map can be trusted, and whether its block wants `ManualChecked`."""
+    rows: list[tuple[str, ...]] = [("drive", *trust.SHOWN, "wants `ManualChecked`"), ("---",) * (len(trust.SHOWN) + 2)]
+    for path, drive in maps.items():
+        rows.append((_link(path, drive, folder), *trust.shown(drive).values(), "yes" * trust.second_hand(drive)))
     return "".join(f"| {' | '.join(row)} |\n" for row in rows)
 
 

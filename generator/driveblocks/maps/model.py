@@ -58,6 +58,8 @@ Reacts = Literal["stop", "quick_stop", "coast_stop", "trips", "runs_on", "other_
 By = Literal["edge", "level"]
 Trust = Literal["read", "sister", "transcribed", "in_use"]
 """How far facts of a document can be trusted, the best first."""
+Rung = Literal["read", "sister", "derived", "transcribed", "in_use"]
+"""How far a fact can be trusted, the best first."""
 Connector = Literal["rj45", "terminals", "d_sub"]
 """What the line is plugged into, or wired to."""
 Wire = Literal["positive", "negative", "common", "shield", "supply", "reserved", "unconnected"]
@@ -113,6 +115,32 @@ class Entry:
     def place(self, key: str) -> Place:
         """Line and column of a key's value, or of the entry where the key is absent."""
         return self.keys.get(key, self.at)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Trusted(Entry):
+    """Base of entries that can be trusted less far than their document."""
+
+    rung: Rung | None = option(
+        "how far it can be trusted, where that is less than its document: nobody has read it there, or it is `derived` "
+        "from other facts; the rungs, best first",
+        "derived",
+    )
+    rule: English | None = option("of what is derived, how", "33H to 37H follow 32H in the order of the bits")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Cited(Trusted):
+    """Base of entries that are cited: they have a source."""
+
+    printed: tuple[Annotated[str, form.CELL], ...] = field(
+        metadata={
+            "doc": "what stands there, to find it again: label and value as printed, in their order, no sentence",
+            "example": "[C125 3, 2000H 5]",
+        },
+        default=(),
+        repr=False,
+    )
 
 
 class Worded:
@@ -278,7 +306,7 @@ class Switch(Entry):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Edition(Entry):
+class Edition(Cited):
     """The factory setting of one edition of a drive or of its manual."""
 
     edition: Str = fact("the edition or firmware, as printed", "07/2012")
@@ -302,7 +330,7 @@ class Display(Entry):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Setting(Named):
+class Setting(Named, Cited):
     """A parameter that a person sets on the keypad for communication."""
 
     id: Id = fact("the manual's id", "H5-02")
@@ -370,7 +398,7 @@ class StopBitsCode(Entry):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Choice(Entry):
+class Choice(Cited):
     """Base of a serial property: the setting that chooses it and the factory's choice."""
 
     source: English = fact("where the manual says so", "table of communication parameters")
@@ -415,7 +443,7 @@ class StopBitsChoice(Choice):
 
 
 @dataclass(frozen=True, kw_only=True)
-class UnitAddress(Entry):
+class UnitAddress(Cited):
     """Unit (slave) addresses."""
 
     min: Number = fact("smallest", "1")
@@ -438,7 +466,7 @@ class UnitAddress(Entry):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Silence(Entry):
+class Silence(Cited):
     """Silence on the line around a frame."""
 
     source: English = fact("where the manual says so", "RTU frame structure")
@@ -452,7 +480,7 @@ class Silence(Entry):
 
 
 @dataclass(frozen=True, kw_only=True)
-class ReplyDelay(Entry):
+class ReplyDelay(Cited):
     """A keypad setting that lets the drive answer later."""
 
     setting: Id = fact("id of the keypad setting, whose `default` and `range` are counts of it", "P14.03")
@@ -462,7 +490,7 @@ class ReplyDelay(Entry):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Broadcast(Entry):
+class Broadcast(Cited):
     """Frames to all drives at once."""
 
     address: Number = fact("the broadcast address", "0")
@@ -488,7 +516,7 @@ class Pin(Entry):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Plug(Entry):
+class Plug(Cited):
     """Where the line is connected, as far as a text says."""
 
     connector: Connector | None = option("what it is", "rj45")
@@ -528,7 +556,7 @@ class Serial(Entry):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Limit(Entry):
+class Limit(Cited):
     """One limit and where it is given."""
 
     value: Count = fact("the number", "16")
@@ -562,7 +590,7 @@ class SubFunction(Named):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Function(Named):
+class Function(Named, Cited):
     """A Modbus function that the drive knows."""
 
     code: Number = fact("function code", "03H")
@@ -599,7 +627,7 @@ class Condition(Entry):
 
 
 @dataclass(frozen=True, kw_only=True)
-class OtherScale(Entry):
+class OtherScale(Cited):
     """Another factor of a measure, which holds while something else is true: decimals or a unit by a register."""
 
     factor: Factor = fact("engineering units per count", "0.1")
@@ -612,7 +640,7 @@ class OtherScale(Entry):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Scale(Entry):
+class Scale(Cited):
     """Engineering value = raw word x factor, where the manual states or proves it."""
 
     factor: Factor = fact("engineering units per count", "0.01")
@@ -708,7 +736,7 @@ class PrintedRow(Entry):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Register(Worded, Entry):
+class Register(Worded, Trusted):
     """One row of a register table: a register, or a run of registers that one row describes."""
 
     address: Addresses = fact("wire address, zero-based, or a range", "0026H")
@@ -783,7 +811,7 @@ class Series(Entry):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Section(Entry):
+class Section(Cited):
     """One register table of the manual, in the manual's order."""
 
     id: Word = fact("short name", "monitors_u1")
@@ -825,7 +853,7 @@ class Excluded(Named):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Area(Named):
+class Area(Named, Cited):
     """Parameter registers that the manual gives by a rule: address = base + number."""
 
     id: Word = fact("short name", "function_codes")
@@ -858,7 +886,7 @@ class TwinRange(Entry):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Storage(Entry):
+class Storage(Cited):
     """What happens to a written parameter: RAM, EEPROM, or unexplained (then it counts as EEPROM)."""
 
     method: Literal["enter_register", "ram_address_bit", "ram_twin", "by_setting", "volatile", "unexplained"] = fact(
@@ -904,7 +932,7 @@ class Step(Entry):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Command(Entry):
+class Command(Cited):
     """What one command is on the wire: a value of the command register, or bits set and cleared in it.
 
     The register's row must say that its bits or values do just that.
@@ -943,7 +971,7 @@ class Command(Entry):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Reference(Entry):
+class Reference(Cited):
     """How the speed reference is given."""
 
     register: Address = fact("reference register", "0001H")
@@ -969,7 +997,7 @@ class Reference(Entry):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Standstill(Entry):
+class Standstill(Cited):
     """What proves that the motor is at standstill: all of these at once, read after the stop was acknowledged."""
 
     all: tuple[Condition, ...] = fact("the conditions", "[{register: 0010H, bit: 0, equals: 0}]")
@@ -979,7 +1007,7 @@ class Standstill(Entry):
 
 
 @dataclass(frozen=True, kw_only=True)
-class InCommand(Entry):
+class InCommand(Cited):
     """What says that the bus is in command of the drive, and not its keypad or its terminals: all of these at once."""
 
     all: tuple[Condition, ...] = fact("the conditions", "[{register: 0C81H, bit: 9, equals: 1}]")
@@ -988,7 +1016,7 @@ class InCommand(Entry):
 
 
 @dataclass(frozen=True, kw_only=True)
-class OwnMaximum(Entry):
+class OwnMaximum(Cited):
     """The register of the drive's own maximum frequency, or of what 100 % is; its row has the unit Hz and a scale."""
 
     register: Address = fact("the register", "0303H")
@@ -997,7 +1025,7 @@ class OwnMaximum(Entry):
 
 
 @dataclass(frozen=True, kw_only=True)
-class State(Entry):
+class State(Cited):
     """A named state of the drive: a masked value of a status word."""
 
     name: Word = fact("its name, by which steps wait for it", "switched_on")
@@ -1009,7 +1037,7 @@ class State(Entry):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Status(Entry):
+class Status(Cited):
     """What a pin of the drive block shows: TRUE while one of these holds."""
 
     shows: Shows = fact("the pin", "running")
@@ -1019,7 +1047,7 @@ class Status(Entry):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Forbidding(Entry):
+class Forbidding(Cited):
     """What forbids a start: no motion begins while one of these holds; one that is under way goes on."""
 
     any: tuple[Condition, ...] = fact("the conditions", "[{register: 2138H, bit: E, equals: 1}]")
@@ -1029,7 +1057,7 @@ class Forbidding(Entry):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Measured(Entry):
+class Measured(Cited):
     """A register whose value a pin of the drive block shows."""
 
     shows: Measure = fact("the pin", "output_current")
@@ -1043,7 +1071,7 @@ class Measured(Entry):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Identity(Entry):
+class Identity(Cited):
     """By what one sees that the drive at an address is of this family: all of these at once, in one read."""
 
     all: tuple[Condition, ...] = fact("the conditions", "[{register: 0010H, equals: 1205H}]")
@@ -1053,7 +1081,7 @@ class Identity(Entry):
 
 
 @dataclass(frozen=True, kw_only=True)
-class SilenceTime(Entry):
+class SilenceTime(Cited):
     """After how much silence the watchdog acts: a keypad setting or a register, and what one count of it is."""
 
     setting: Id | None = option("the keypad setting that holds it", "P14.04")
@@ -1072,7 +1100,7 @@ class Reaction(Entry):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Watchdog(Entry):
+class Watchdog(Cited):
     """The drive's own watchdog of a silent line: what feeds it, when it acts, and what it then does."""
 
     feeds: Feed | None = option(
@@ -1159,7 +1187,7 @@ class Operation(Entry):
 
 
 @dataclass(frozen=True, kw_only=True)
-class BitRelation(Entry):
+class BitRelation(Cited):
     """Fault number = 16 x (word - first) + bit + 1, for fault bits with an id."""
 
     first: Address = fact("first fault word", "0014H")
@@ -1168,7 +1196,7 @@ class BitRelation(Entry):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Fault(Returned):
+class Fault(Returned, Trusted):
     """One fault code, or one warning code."""
 
     code: Number = fact("the number that the drive reports", "1EH")
@@ -1184,7 +1212,7 @@ class Fault(Returned):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Help(Entry):
+class Help(Cited):
     """Where the causes and remedies of the codes are from."""
 
     source: English = fact("where they are", "chapter 4, table of fault descriptions")
@@ -1198,7 +1226,7 @@ class Help(Entry):
 
 
 @dataclass(frozen=True, kw_only=True)
-class TripOutput(Entry):
+class TripOutput(Cited):
     """What becomes of the motor when the drive trips."""
 
     motor: Literal["coasts", "ramps", "differs"] = fact(
@@ -1213,7 +1241,7 @@ class TripOutput(Entry):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Faults(Entry):
+class Faults(Cited):
     """Fault codes and the registers that report them."""
 
     source: English = fact("where the table is", "section (IV), table of fault numbers")
@@ -1239,7 +1267,7 @@ class Faults(Entry):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Warnings(Entry):
+class Warnings(Cited):
     """Warning codes and the register that reports them."""
 
     source: English = fact("where the table is", "table of warnings")
@@ -1261,7 +1289,7 @@ class Warnings(Entry):
 
 
 @dataclass(frozen=True, kw_only=True)
-class ErrorForm(Entry):
+class ErrorForm(Cited):
     """What a refusal looks like on the wire."""
 
     kind: Literal["exception", "write_reply"] = fact(
@@ -1293,7 +1321,7 @@ class ErrorCode(Returned):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Errors(Entry):
+class Errors(Cited):
     """How the drive refuses a request."""
 
     form: ErrorForm | None = option("what a refusal looks like", "{kind: exception, add: 80H, source: ...}")
@@ -1303,7 +1331,7 @@ class Errors(Entry):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Notice(Entry):
+class Notice(Cited):
     """A prohibition, warning, hazard or procedure that the manual gives in prose."""
 
     kind: Literal["prohibition", "warning", "hazard", "procedure"] = fact("what it is", "prohibition")
@@ -1426,7 +1454,7 @@ class Absence(Entry):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Tolerance(Entry):
+class Tolerance(Cited):
     """A departure from the standard that replies are allowed; a write answered by another word is none."""
 
     kind: Literal["two_byte_count"] = fact(
@@ -1438,7 +1466,7 @@ class Tolerance(Entry):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Numbering(Entry):
+class Numbering(Cited):
     """How the manual numbers registers, where it does not give the addresses that are sent."""
 
     first: Count = fact("the number of the register whose address is 0", "40001")
@@ -1619,9 +1647,6 @@ class Drive(Entry):
         kept = {use: [pair for pair in rows if id(pair[1]) not in hidden["r" if use == "w" else "w"]] for use in hidden}
         return {use: ([row.address.first for _, row in some], some) for use, some in kept.items()}
 
-
-RESERVED_FACT = ("printed", "rung")
-"""Keys of all that has a `source` that nothing reads yet: the printed cell, and how far it can be trusted."""
 
 Known = TypeVar("Known")
 

@@ -3,8 +3,8 @@
 from collections.abc import Iterator
 from importlib.resources import files
 
-from driveblocks.maps.model import Drive
-from driveblocks.maps.shape import EntryOf, Key, ListOf, OneOf, keys_of
+from driveblocks.maps.model import Cited, Drive
+from driveblocks.maps.shape import EntryOf, Key, ListOf, OneOf, keys_of, told_last
 
 BEGIN, END = "<!-- skeleton:begin -->", "<!-- skeleton:end -->"
 
@@ -16,6 +16,13 @@ _KEYS = """# Every key of a map
 The reference to [the guide](README.md). Written by `driveblocks schema vendor_maps` from the model of maps. `must`
 marks the keys that cannot be left out.
 """
+_ANY_SOURCE = """
+## Wherever a source may be
+
+Every entry with a `source` has these keys, too; a [Register](#register) and a [Fault](#fault) have the first two, and a
+[Frame](#frame) is printed as a whole.
+"""
+_HEAD = "| key | must | meaning | example |\n|---|---|---|---|\n"
 
 
 def update(text: str) -> str:
@@ -34,7 +41,8 @@ def skeleton() -> str:
 
 def reference() -> str:
     """Markdown: one table per kind of entry, in the order in which they first appear in a map."""
-    return _KEYS + "".join(_table(cls) for cls in classes())
+    any_source = "".join(_row(key) for key in keys_of(Cited).values())
+    return _KEYS + f"{_ANY_SOURCE}\n{_HEAD}{any_source}" + "".join(_table(cls) for cls in classes())
 
 
 def classes() -> Iterator[type]:
@@ -52,8 +60,8 @@ def _parts(cls: type) -> list[type]:
 
 def _table(cls: type) -> str:
     purpose = (cls.__doc__ or "").strip().splitlines()[0]
-    rows = "".join(_row(key) for key in keys_of(cls).values())
-    return f"\n## {cls.__name__}\n\n{purpose}\n\n| key | must | meaning | example |\n|---|---|---|---|\n{rows}"
+    rows = "".join(_row(key) for name, key in keys_of(cls).items() if name not in told_last(cls))
+    return f"\n## {cls.__name__}\n\n{purpose}\n\n{_HEAD}{rows}"
 
 
 def _row(key: Key) -> str:

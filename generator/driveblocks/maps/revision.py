@@ -86,4 +86,5 @@ def _named(value: Any) -> set[str]:
 
 def _facts(value: Any) -> str:
     """What an entry says; keys that are left out change nothing, so that a new key changes no old number."""
-    return _LEFT_OUT.sub("", repr(value)).replace("Drive(format=2", "Drive(format=1")  # it says nothing of a drive
+    said = _LEFT_OUT.sub("", repr(value)).replace("(rung=None, rule=None, ", "(")
+    return said.replace("Drive(format=2", "Drive(format=1")  # it says nothing of a drive

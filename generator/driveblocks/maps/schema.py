@@ -6,7 +6,7 @@ from typing import Any
 from driveblocks.maps import form
 from driveblocks.maps.form import Form
 from driveblocks.maps.model import Drive
-from driveblocks.maps.shape import EntryOf, Key, ListOf, OneOf, Shape, keys_of, reserved_of
+from driveblocks.maps.shape import EntryOf, Key, ListOf, OneOf, Shape, keys_of
 
 Schema = dict[str, Any]
 _HEAD: Schema = {
@@ -42,8 +42,7 @@ def _entry(cls: type, definitions: dict[str, Schema]) -> Schema:
         "description": (cls.__doc__ or "").strip().splitlines()[0],
         "additionalProperties": False,
         "required": [key.name for key in keys.values() if key.required],
-        "properties": {key.name: _property(key, definitions) for key in keys.values()}
-        | {name: {"description": "Not read yet."} for name in reserved_of(cls)},
+        "properties": {key.name: _property(key, definitions) for key in keys.values()},
     }
 
 

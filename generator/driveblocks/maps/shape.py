@@ -8,7 +8,7 @@ from typing import Annotated, Any, Literal, Union, get_args, get_origin, get_typ
 
 from driveblocks.maps import form
 from driveblocks.maps.form import Form
-from driveblocks.maps.model import RESERVED_FACT
+from driveblocks.maps.model import Cited, Trusted
 
 
 @dataclass(frozen=True)
@@ -56,14 +56,13 @@ def keys_of(cls: type) -> dict[str, Key]:
         required = item.default is dataclasses.MISSING and item.default_factory is dataclasses.MISSING
         meta = item.metadata
         keys[item.name] = Key(item.name, shape_of(hints[item.name]), required, meta["doc"], meta["example"])
-    return keys
+    return {name: keys[name] for name in sorted(keys, key=told_last(cls).__contains__)}
 
 
-@cache
-def reserved_of(cls: type) -> tuple[str, ...]:
-    """The keys of a model class that may be there, and that nothing reads yet."""
-    own = keys_of(cls)
-    return tuple(key for key in RESERVED_FACT if "source" in own and key not in own)
+def told_last(cls: type) -> frozenset[str]:
+    """The keys that a model class has as every other that is cited."""
+    bases = [base for base in (Trusted, Cited) if issubclass(cls, base)]
+    return frozenset(item.name for base in bases for item in dataclasses.fields(base) if "doc" in item.metadata)
 
 
 @cache

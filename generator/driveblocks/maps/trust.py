@@ -6,13 +6,17 @@ from dataclasses import dataclass, fields, replace
 from itertools import chain
 from typing import Any, get_args
 
-from driveblocks.maps.model import Corroboration, Document, Drive, Entry, Trust, Use, kept
+from driveblocks.maps.model import Corroboration, Document, Drive, Entry, Rung, Trust, Trusted, Use, kept
 from driveblocks.maps.problem import Place
 
 TRUSTS: tuple[Trust, ...] = get_args(Trust)
-MOTION = ("commands", "reference", "status", "measures", "watchdog", "settings")
+RUNGS: tuple[Rung, ...] = get_args(Rung)
+CONTROL = ("commands", "reference", "status", "measures")
+MOTION = (*CONTROL, "watchdog", "serial", "settings")
 """The parts of a map that a motion depends on."""
 PARTS = (*MOTION, "faults", "other settings")
+SHOWN = {"control": CONTROL} | {part: (part,) for part in PARTS if part not in CONTROL}
+"""What has a rung of its own in a table of drives: its parts."""
 
 
 @dataclass(frozen=True)
@@ -21,11 +25,16 @@ class Fact:
 
     part: str
     name: str
-    trust: Trust
+    trust: Rung
     document: Document | None
     place: Place
     said: tuple[Any, ...]
     """The entries that say it; of their documents the one to trust least counts."""
+
+    @property
+    def rules(self) -> tuple[str, ...]:
+        """By what it is derived from others, where it is."""
+        return tuple(one.rule for one in self.said if one.rule and one.rung == self.trust)
 
 
 def taken(value: Any) -> Iterator[tuple[str, Place]]:
@@ -41,20 +50,35 @@ def taken(value: Any) -> Iterator[tuple[str, Place]]:
                 yield from taken(getattr(value, one.name))
 
 
+def cited(value: Any) -> Iterator[Trusted]:
+    """Every entry of a map, or of a part of it, that has a rung of its own or a rule."""
+    if isinstance(value, tuple):
+        for each in value:
+            yield from cited(each)
+    elif isinstance(value, Entry):
+        if isinstance(value, Trusted) and (value.rung or value.rule):
+            yield value
+        for one in fields(value):
+            if one.metadata:
+                yield from cited(getattr(value, one.name))
+
+
 @kept
 def facts(drive: Drive) -> tuple[Fact, ...]:
     """Every fact that a motion depends on, then those that only a person needs: in the order of `PARTS`."""
     motion = [*_moving(drive), *_shown(drive), *_set(drive)]
     known = {id(one) for *_, said in motion for one in said}
-    faults = [("faults", f"{one.code:02X}H", [one if one.document else drive.faults]) for one in drive.faults.codes]
+    faults = [
+        ("faults", f"{one.code:02X}H", [one, *([] if one.document else [drive.faults])]) for one in drive.faults.codes
+    ]
     others = [("other settings", one.id, [one]) for one in drive.settings if id(one) not in known]
     return tuple(_fact(drive, *each) for each in (*motion, *faults, *others))
 
 
-def counted(drive: Drive) -> dict[str, dict[Trust, int]]:
+def counted(drive: Drive) -> dict[str, dict[Rung, int]]:
     """How many facts of each part can be trusted how far."""
     return {
-        part: dict(Counter(sorted((one.trust for one in facts(drive) if one.part == part), key=TRUSTS.index)))
+        part: dict(Counter(sorted((one.trust for one in facts(drive) if one.part == part), key=RUNGS.index)))
         for part in PARTS
     }
 
@@ -66,26 +90,39 @@ def second_hand(drive: Drive) -> bool:
 
 def rung(drive: Drive) -> str:
     """The parts of which not all was read in the maker's own words, each by its weakest fact; `read` if all was."""
-    weakest = {part: max(found, key=TRUSTS.index) for part, found in counted(drive).items() if found}
+    weakest = {part: max(found, key=RUNGS.index) for part, found in counted(drive).items() if found}
     return ", ".join(f"{part} {words(how)}" for part, how in weakest.items() if how != "read") or "read"
+
+
+def shown(drive: Drive) -> dict[str, str]:
+    """The weakest rung of each of `SHOWN`, in words; where the map has nothing of it, a dash."""
+    held = counted(drive)
+    found = {name: [how for part in parts for how in held[part]] for name, parts in SHOWN.items()}
+    return {name: words(max(some, key=RUNGS.index)) if some else "–" for name, some in found.items()}
 
 
 def heard(drive: Drive) -> list[str]:
     """One line for each part and document whose facts were not read in the maker's own words; all faults are one."""
-    found = dict[tuple[str, Document | None], list[Fact]]()
+    found = dict[tuple[str, Rung, str], list[Fact]]()
     for one in (each for each in facts(drive) if each.trust != "read"):
-        found.setdefault((one.part, one.document), []).append(one)
+        found.setdefault((one.part, one.trust, _title(one)), []).append(one)
     lines = []
-    for (part, document), some in found.items():
+    for (part, how, title), some in found.items():
         whole = part == "faults" and len(some) == len(drive.faults.codes) > 1
         names = f"all {len(some)}" if whole else ", ".join(one.name.replace("_", " ") for one in some)
-        title = f"{document.title}, {document.publisher}" if document else "the manual as others wrote it down"
-        lines.append(f"{part}, {words(some[0].trust)} ({title}): {names}")
+        lines.append(f"{part}, {words(how)} ({title}): {names}")
     return lines
 
 
-def words(how: Trust) -> str:
-    """A trust as it is shown."""
+def _title(fact: Fact) -> str:
+    """From what a fact is that was not read."""
+    if fact.rules or not fact.document:
+        return "; ".join(fact.rules) or "the manual as others wrote it down"
+    return f"{fact.document.title}, {fact.document.publisher}"
+
+
+def words(how: Rung) -> str:
+    """A rung as it is shown."""
     return how.replace("_", " ")
 
 
@@ -141,7 +178,7 @@ def _set(drive: Drive) -> Iterator[_Said]:
         "stop bits": line.stop_bits,
     }.items():
         if choice:
-            yield "settings", name, [choice, *_named(drive, choice.setting)]
+            yield "serial", name, [choice, *_named(drive, choice.setting)]
     yield from (("settings", one.id, [one]) for one in drive.settings if one.needed)
 
 
@@ -164,9 +201,14 @@ def _named(drive: Drive, *settings: str | None) -> list[Any]:
 
 
 def _fact(drive: Drive, part: str, name: str, said: list[Any]) -> Fact:
-    """A fact by the document to trust least of those that it is taken from."""
-    manual: tuple[Document | None, Trust] = (None, "transcribed" if drive.manual.second_hand else "read")
-    documents = {one.id: (one, one.trust or "transcribed") for one in drive.documents}
+    """A fact by the weakest rung of what says it, its own or that of its document."""
+    manual: tuple[Document | None, Rung] = (None, "transcribed" if drive.manual.second_hand else "read")
+    documents: dict[str, tuple[Document | None, Rung]] = {
+        one.id: (one, one.trust or "transcribed") for one in drive.documents
+    }
     named = [(*documents.get(one.document, manual), one.place("document")) for one in said]
-    document, trust, place = max(named, key=lambda one: TRUSTS.index(one[1]))
+    named += [
+        (document, one.rung, one.place("rung")) for one, (document, *_) in zip(said, named, strict=True) if one.rung
+    ]
+    document, trust, place = max(named, key=lambda one: RUNGS.index(one[1]))
     return Fact(part, name, trust, document, place, tuple(said))

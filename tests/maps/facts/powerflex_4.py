@@ -12,7 +12,7 @@ COMMAND = (
     "0 Stop|1 Start|2 Jog|3 Clear Faults|5,4 Direction|7,6 -|9,8 Accel Rate|11,10 Decel Rate"
     "|14,13,12 Frequency source|15 -"
 )
-DIRECTION = ["No direction", "Forward command", "Reverse command", "Change direction (toggle)"]
+DIRECTION = ["No direction", "Forward command", "Reverse command", "No command"]
 STATUS = (
     "0 Ready|1 Active (Running)|2 Cmd Forward|3 Rotating Forward|4 Accelerating|5 Decelerating|6 Alarm|7 Faulted"
     "|8 At Reference|9 Reference by comm|10 Operation Cmd by comm|11 Parameters locked|12 Digital Input 1"

@@ -6,10 +6,10 @@ from driveblocks.maps import references
 from driveblocks.maps.form import address_text, bits_text, said, span_text, written
 from driveblocks.maps.model import Bit, Corroboration, Drive, Entry, Erratum, ErrorCode, Register, Section, Text, Value
 from driveblocks.maps.plan import plan
-from driveblocks.maps.problem import Place, Report, line
+from driveblocks.maps.problem import Place, Report, Taken, line
 from driveblocks.maps.rules.reference import Known
 from driveblocks.maps.rules.unique import unique
-from driveblocks.maps.trust import TRUSTS, taken
+from driveblocks.maps.trust import RUNGS, TRUSTS, cited, taken
 
 MOST_ON_SITE, MOST_ASKED = 10, 6
 """Gaps of a map that are for the first hour on site: in all, and those that a person is asked about."""
@@ -28,6 +28,23 @@ def check(drive: Drive, report: Report) -> None:
     _owed(drive, report)
     _on_site(drive, report)
     _documents(drive, report)
+    _rungs(drive, report)
+
+
+def _rungs(drive: Drive, report: Report) -> None:
+    """Note what is derived by no rule, and what is said to be better than its document."""
+    trusted = {one.id: one.trust for one in drive.documents if one.trust}
+    for one in cited(drive):
+        if (one.rung == "derived") != (one.rule is not None):
+            right = (
+                "add `rule:`, how it follows from other facts" if one.rung else "add `rung: derived`, or remove `rule`"
+            )
+            report.miss(one.place("rung"), "what is derived has a rule, and nothing else has one", right)
+        trust = trusted.get(getattr(one, "document", None) or "", "read")
+        own = one.rung if one.rung and not isinstance(one.place("rung"), Taken) else trust
+        if RUNGS.index(own) < RUNGS.index(trust):
+            wrong = f"`rung: {own}` is better than its document, which is `{trust}`"
+            report.add(one.place("rung"), wrong, "remove it, or name another document")
 
 
 def _owed(drive: Drive, report: Report) -> None:
