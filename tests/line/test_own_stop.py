@@ -2,7 +2,7 @@
 
 import pytest
 from tests.line.drives import counted
-from tests.line.vline import NAMES, STOP, Bench, Sent
+from tests.line.vline import NAMES, STOP, Bench, Config, Sent
 
 PLAIN, JOG, COAST = 0x0005, 0x0008, 0x0006
 """Words of stops; all go to the register of the drives' kind."""
@@ -150,3 +150,13 @@ def test_a_unit_that_nobody_attends_is_stopped_when_its_supply_returns() -> None
     assert not bench["StopOverdue"]
     bench.drives[1].alive = True
     assert words(bench.run(11_000))[:2] == [PLAIN, JOG]
+
+
+def test_a_port_that_sends_a_call_later_gets_a_repeated_stop_no_sooner() -> None:
+    """Its answer came while the stop still counted as unsent, so the pause after it was left out."""
+    bench = Bench(Config(drives=2, scan=40_000, max_scan=45, tx_late=1)).ready()
+    bench.attended.discard(0)
+    bench.run(4000)
+    before = len(bench.sent)
+    bench.run(3000)
+    assert sum(each.unit == 1 and each.stop for each in bench.sent[before:]) <= 6

@@ -87,7 +87,8 @@ def _refused(mode: str) -> Does:
         one.be_strict(b.now, STRICT_US)
         b.put(0, **{mode: True})
         b.restart()
-        said = b.wait(lambda: b.shows("StopOverdue") or one.by != "bus", OVERDUE_MS)
+        most = max(OVERDUE_MS, int(b.number("StopWithinMs")) + 2000)
+        said = b.wait(lambda: b.shows("StopOverdue") or one.by != "bus", most)
         if not said:
             b.judge.tell(0, "refused in silence", b.told(0))
 
