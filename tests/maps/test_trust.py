@@ -112,7 +112,7 @@ def test_the_weakest_rung_decides_whether_the_manual_has_to_be_checked(fact: str
     (found,) = (one for one in trust.facts(drive) if one.trust != "read")
     assert (found.part, found.name, found.trust, found.document) == (part, name, rung, None)
     assert trust.second_hand(drive)
-    assert trust.shown(drive)["control" if part in trust.CONTROL else part] == trust.words(rung)
+    assert trust.shown(drive)["control" if part in trust.CONTROL else part] == trust.words(found.trust)
     assert "rung" in _text({where: f"{blanks}rung"}).splitlines()[found.place[0] - 1]
 
 

@@ -37,6 +37,8 @@ Blocks = tuple[list[SimData], list[SimData], list[SimData], list[SimData]]
 def words(stem: str, *, everything: bool) -> Blocks:
     """The registers that a map lists as readable, or each that there is; those with listed values have one of them."""
     known = {row.address.first: row.values[0].value for _, row in MAPS[stem].registers() if row.values}
+    identity = MAPS[stem].identity
+    known |= {one.register: one.equals or 0 for one in identity.all if one.register is not None} if identity else {}
     found: Blocks = ([], [], [], [])
     spans = [Span(first, first + 0xFFFF) for first in (0, SPACES["coil"])] if everything else plan(MAPS[stem]).readable
     for span in spans:
@@ -128,7 +130,8 @@ def commissioned(stem: str, folder: Path, **words: Any) -> kept.Kept:
 def test_a_server_with_the_registers_of_a_map_is_found_and_measured(stem: str, where: str, tmp_path: Path) -> None:
     with peer(where, SimDevice(UNIT, words(stem, everything=False))) as place:
         one = commissioned(stem, tmp_path, **{"tcp" if where == "tcp" else "port": place})
-    assert (one.family, one.ended, one.line.unit, one.faults) == ("fits", None, UNIT, ())
+    right = "identity" if MAPS[stem].identity else "fits"
+    assert (one.family, one.ended, one.line.unit, one.faults) == (right, None, UNIT, ())
     assert one.measured is not None
     assert one.measured.unlisted.endswith(": refused")
     assert set(FUNCTIONS) <= READS
