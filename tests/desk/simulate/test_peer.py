@@ -44,7 +44,7 @@ def client(link: TcpLink | PtyLink, mode: str, trace: Callable[[bool, bytes], by
     """A client that shows its bytes."""
     if isinstance(link, TcpLink):
         port = int(link.place.partition(":")[2])
-        return ModbusTcpClient("127.0.0.1", port=port, framer=MODES[mode], trace_packet=trace, retries=0, timeout=30)
+        return ModbusTcpClient("127.0.0.1", port=port, framer=MODES[mode], trace_packet=trace, retries=0, timeout=9)
     return ModbusSerialClient(
         link.place, framer=MODES[mode], baudrate=115200, trace_packet=trace, retries=0, timeout=30
     )
