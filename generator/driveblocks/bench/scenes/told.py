@@ -26,6 +26,11 @@ USUAL: dict[str, int] = {"LongestMs": 500, "BootMs": 10000}
 """What replaces settings that are 0, where neither map nor drive says it."""
 
 
+SAID = " AND ".join(
+    f"(Motor.Diagnosis.{name} = Slots[0].{name})"
+    for name in ("TurnRoundMs", "LongestReplyMs", "StopAloneMs", "WorstStopMs")
+)
+"""The diagnosis shows what the line knows, which is a scan ahead of it."""
 MORE = More(
     blocks={"Learned": ("UINT", "twice the longest reply, and 20 ms")},
     calls=("Learned := 2 * Slots[0].LongestReplyMs + 20;",),
@@ -164,7 +169,7 @@ def _settings(can: Ability) -> Iterator[Step]:
     yield Step("all are set", sets | {"StopWithinMs": 4000}, "Motor.Ready", 3000, _slot({
         key: SETTINGS[key] for key in ("TurnRoundMs", "LongestMs", "BootMs")
     } | {"StopWithinMs": 4000}))  # fmt: skip
-    yield Step("the diagnosis says it", ms=100, shows=_diagnosis(can) | {
+    yield Step("the diagnosis says it", {}, SAID, 200, _diagnosis(can) | {
         "Motor.Diagnosis.TurnRoundMs": SETTINGS["TurnRoundMs"],
     })  # fmt: skip
     yield Step("LongestMs is at least TurnRoundMs", {"Pins.Settings.TurnRoundMs": 90}, ms=60, shows=_slot({
@@ -173,12 +178,8 @@ def _settings(can: Ability) -> Iterator[Step]:
 
 
 def _diagnosis(can: Ability) -> Shows:
-    """What the line knows and the drive block shows."""
-    found: Shows = {
-        f"Motor.Diagnosis.{name} = Slots[0].{name}": True
-        for name in ("TurnRoundMs", "LongestReplyMs", "StopAloneMs", "WorstStopMs")
-    }
-    found |= {f"Slots[0].{name} = Bus.{name}": True for name in ("StopAloneMs", "WorstStopMs")}
+    """What the line knows and the drive block shows, once SAID."""
+    found: Shows = {f"Slots[0].{name} = Bus.{name}": True for name in ("StopAloneMs", "WorstStopMs")}
     found |= {"Motor.Diagnosis.StatusAgeMs": (0, 400), "Motor.Diagnosis.State": 1}
     found["(Motor.Diagnosis.StopKind = 1) OR (Motor.Diagnosis.StopKind = 4)"] = True
     if measures(can.drive) and can.turns == 1:
@@ -192,7 +193,7 @@ def _unset(can: Ability) -> Iterator[Step]:
     yield Step("none is set", sets, ms=100, shows=_slot({**USUAL, "TurnRoundMs": 500}))
     yield Step("it learns how fast the drive is", {}, "Slots[0].Replies >= 20", 4000)
     yield Step("from then on", {}, "Motor.Ready", 4000, {learned: True} | _slot(USUAL))
-    yield Step("the diagnosis says it", ms=100, shows={learned: True} | _slot(USUAL) | _diagnosis(can))
+    yield Step("the diagnosis says it", {}, SAID, 200, {learned: True} | _slot(USUAL) | _diagnosis(can))
     yield Step("replies come later", {"Fate.HoldMs": 40}, ms=600, shows={learned: True, "CommOk": True})
     yield Step("so late that nobody can learn it", {"Slots[0].LongestReplyMs": 241}, ms=60, shows=_slot({
         "TurnRoundMs": 500,
