@@ -61,7 +61,7 @@ class Commands:
         if not drive.operation.in_one_word:
             raise ValueError("a command of the map takes several writes")
         self.home = self.known["stop"].register
-        self.kept = dict(_kept(drive))
+        self.kept = kept(drive)
         self.before: tuple[Pins, Told] | None = None
         self.jogging = False
         self.reset_asked = False
@@ -153,12 +153,14 @@ def _numbers(spans: Iterable[Bits]) -> Iterable[int]:
     return (bit for span in spans for bit in span)
 
 
-def _kept(drive: Drive) -> Iterable[tuple[int, frozenset[int]]]:
+def kept(drive: Drive) -> dict[int, frozenset[int]]:
     """Each register that is commanded by bits: its bits that the manual gives a use and that no command touches."""
+    found: dict[int, frozenset[int]] = {}
     commands = [one for one in drive.operation.commands if one.value is None]
     for register in {one.register for one in commands}:
         touched = {bit for one in commands if one.register == register for bit in _numbers((*one.set, *one.clear))}
-        yield register, frozenset(_in_use(drive.register_at(register, "w")) - touched)
+        found[register] = frozenset(_in_use(drive.register_at(register, "w")) - touched)
+    return found
 
 
 def _in_use(row: Register | None) -> set[int]:

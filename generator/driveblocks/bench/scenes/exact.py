@@ -9,8 +9,8 @@ from driveblocks.bench.scenes.scene import More, Scene, Shows, Step, scene, scri
 from driveblocks.bench.script import SCAN_MS, Script
 from driveblocks.maps.model import Drive
 from driveblocks.maps.rivals import first_reads
-from driveblocks.meaning.measure import measures
 from driveblocks.meaning.polls import polls
+from driveblocks.meaning.roles import roles
 from driveblocks.meaning.serial import serial
 from driveblocks.meaning.watchdog import feeds, watchdog
 from driveblocks.meaning.words import words
@@ -79,7 +79,7 @@ def scenes(drive: Drive) -> Iterator[Scene]:
     yield scene("when a drive is dead", POWER, *_dead())
     yield scene("when a request is withdrawn", POWER, *_mailbox())
     yield scene("when every call comes late", POWER, *_late_calls())
-    if measures(can.drive) and can.turns == 1:
+    if len(roles(drive).measure) == 1 and can.turns == 1:  # of several reads one is older, by what comes between
         yield scene("how old a measure is", POWER, *_young())
     yield scene("silence after a restart", POWER, *_quiet(drive))
     yield scene("when a stop is overdue", POWER, run(), *_overdue())

@@ -103,9 +103,8 @@ def _power_up(can: Ability) -> Iterator[Step]:
 
 
 def _held(can: Ability) -> Iterator[Step]:
-    yield Step("it starts nothing", {"RunForward": True}, ms=max(1500, 400 * can.turns), shows=NOTHING_STARTED | {
-        "StopConfirmed": True,
-    })  # fmt: skip
+    yield Step("it starts nothing", {"RunForward": True}, "Motor.StopConfirmed", 4000, NOTHING_STARTED)
+    yield Step("nor at standstill", ms=max(1000, 400 * can.turns), shows=NOTHING_STARTED | {"StopConfirmed": True})
     read = max(500, 400 * can.turns)  # the settings of the drive may be among many reads
     yield Step("it is released", {"RunForward": False}, "Motor.Ready", read, {"Reason": "READY"})
     yield run()

@@ -14,7 +14,7 @@ from driveblocks.maps.rivals import first_reads, refusals
 from driveblocks.meaning.measure import measures
 from driveblocks.meaning.reference import reference
 from driveblocks.meaning.serial import serial
-from driveblocks.reference.command import Commands
+from driveblocks.reference.command import Commands, kept
 from structured_text.language.writing import word
 
 KEPT = 0x5A5A
@@ -26,6 +26,11 @@ USUAL: dict[str, int] = {"LongestMs": 500, "BootMs": 10000}
 """What replaces settings that are 0, where neither map nor drive says it."""
 
 
+SAID = " AND ".join(
+    f"(Motor.Diagnosis.{name} = Slots[0].{name})"
+    for name in ("TurnRoundMs", "LongestReplyMs", "StopAloneMs", "WorstStopMs")
+)
+"""The diagnosis shows what the line knows, which is a scan ahead of it."""
 MORE = More(
     blocks={"Learned": ("UINT", "twice the longest reply, and 20 ms")},
     calls=("Learned := 2 * Slots[0].LongestReplyMs + 20;",),
@@ -77,9 +82,12 @@ def _write(drive: Drive, register: int) -> int:
 
 def _word(drive: Drive, command: Command) -> int:
     """The word of a command, beside what is kept."""
-    if not drive.operation.in_one_word:
-        return command.value or sum(1 << bit for span in command.set for bit in span)
-    return Commands(drive).word(command, {command.register: KEPT})
+    if drive.operation.in_one_word:
+        return Commands(drive).word(command, {command.register: KEPT})
+    if command.value is not None:
+        return command.value
+    beside = {bit for bit in kept(drive)[command.register] if KEPT >> bit & 1}
+    return sum(1 << bit for bit in beside.union(*command.set))
 
 
 def _slot(shows: Mapping[str, Value]) -> Shows:
@@ -129,7 +137,7 @@ def _not_blank(drive: Drive) -> Iterator[Step]:
         "Unattended": False, "StopOverdue": False, "StopAll": False, "ScanLate": False,
         "Shared": False, "StopConfirmed": True, "ProvedStill": True,
         "Tripped": False, "JogStop": 0, "LineErrorID": 0, "LongestReplyMs <= 60": True, "Replies < 100": True,
-        "SinceStoreMs < 2000": True, "ResetAsked": False,
+        "SinceStoreMs <= WaitedMs + 100": True, "ResetAsked": False,
     } | _nothing_waits()))  # fmt: skip
     run = _command(drive, "run_forward")
     speed = reference(drive).register
@@ -161,7 +169,7 @@ def _settings(can: Ability) -> Iterator[Step]:
     yield Step("all are set", sets | {"StopWithinMs": 4000}, "Motor.Ready", 3000, _slot({
         key: SETTINGS[key] for key in ("TurnRoundMs", "LongestMs", "BootMs")
     } | {"StopWithinMs": 4000}))  # fmt: skip
-    yield Step("the diagnosis says it", ms=100, shows=_diagnosis(can) | {
+    yield Step("the diagnosis says it", {}, SAID, 200, _diagnosis(can) | {
         "Motor.Diagnosis.TurnRoundMs": SETTINGS["TurnRoundMs"],
     })  # fmt: skip
     yield Step("LongestMs is at least TurnRoundMs", {"Pins.Settings.TurnRoundMs": 90}, ms=60, shows=_slot({
@@ -170,12 +178,8 @@ def _settings(can: Ability) -> Iterator[Step]:
 
 
 def _diagnosis(can: Ability) -> Shows:
-    """What the line knows and the drive block shows."""
-    found: Shows = {
-        f"Motor.Diagnosis.{name} = Slots[0].{name}": True
-        for name in ("TurnRoundMs", "LongestReplyMs", "StopAloneMs", "WorstStopMs")
-    }
-    found |= {f"Slots[0].{name} = Bus.{name}": True for name in ("StopAloneMs", "WorstStopMs")}
+    """What the line knows and the drive block shows, once SAID."""
+    found: Shows = {f"Slots[0].{name} = Bus.{name}": True for name in ("StopAloneMs", "WorstStopMs")}
     found |= {"Motor.Diagnosis.StatusAgeMs": (0, 400), "Motor.Diagnosis.State": 1}
     found["(Motor.Diagnosis.StopKind = 1) OR (Motor.Diagnosis.StopKind = 4)"] = True
     if measures(can.drive) and can.turns == 1:
@@ -188,7 +192,8 @@ def _unset(can: Ability) -> Iterator[Step]:
     learned = "Slots[0].TurnRoundMs = MAX(50, Learned)"
     yield Step("none is set", sets, ms=100, shows=_slot({**USUAL, "TurnRoundMs": 500}))
     yield Step("it learns how fast the drive is", {}, "Slots[0].Replies >= 20", 4000)
-    yield Step("from then on", {}, "Motor.Ready", 4000, {learned: True} | _slot(USUAL) | _diagnosis(can))
+    yield Step("from then on", {}, "Motor.Ready", 4000, {learned: True} | _slot(USUAL))
+    yield Step("the diagnosis says it", {}, SAID, 200, {learned: True} | _slot(USUAL) | _diagnosis(can))
     yield Step("replies come later", {"Fate.HoldMs": 40}, ms=600, shows={learned: True, "CommOk": True})
     yield Step("so late that nobody can learn it", {"Slots[0].LongestReplyMs": 241}, ms=60, shows=_slot({
         "TurnRoundMs": 500,
