@@ -20,7 +20,7 @@ from driveblocks.meaning.polls import Poll, polls, schedule, wire_ms
 from driveblocks.meaning.quantity import quantity
 from driveblocks.meaning.reference import reference
 from driveblocks.meaning.serial import serial
-from driveblocks.meaning.setting import settings
+from driveblocks.meaning.setting import setting, settings
 from driveblocks.meaning.status import status
 from driveblocks.meaning.watchdog import at_rest, counts_at_rest, feeds, watchdog
 from driveblocks.meaning.words import words
@@ -186,12 +186,13 @@ def _turns_on(drive: Drive) -> str:
     """How long a motor turns on without the line, by the drive's own watchdog."""
     own = watchdog(drive)
     time = own.time if own else None
-    if time is None or time.setting is None:
+    by = setting(drive, time.setting) if time else None
+    if time is None or by is None:
         return "its watchdog, of unknown time" if own else "not known"
     if time.least_ms is None or time.most_ms is None:
-        return f"as `{time.setting}` says"
+        return f"as `{by.keypad.code}` says"
     least, most = (each / 1000 for each in (time.least_ms, time.most_ms))
-    return f"{least.normalize():f} to {most.normalize():f} s, `{time.setting}`"
+    return f"{least.normalize():f} to {most.normalize():f} s, `{by.keypad.code}`"
 
 
 def _wires(drive: Drive) -> dict[str, str]:

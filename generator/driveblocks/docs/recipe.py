@@ -176,7 +176,7 @@ def _scaled(drive: Drive, full_scale_hz: float) -> str:
     return f"; {float(known.ratio):g} for each hertz"
 
 
-def _reads(drive: Drive, unit: int, patterns: Sequence[Pattern], says: str = "it has to be") -> Iterator[Request]:
+def _reads(drive: Drive, unit: int, patterns: Sequence[Pattern], says: str = "check that") -> Iterator[Request]:
     """One read for each register."""
     for register in registers(patterns):
         said = " and ".join(str(each) for each in patterns if each.register == register)
@@ -212,7 +212,7 @@ def _fed(drive: Drive) -> str:
         return "The manual knows of no watchdog: what the drive does when the line is cut, it does not say."
     by = {"polls": "any request" if own.feeds == "any" else "reads", "reference": "the speed", "run": "the run command"}
     named = feeds(drive)
-    said = f"Its watchdog is fed by {by[named]}." if named else "By what its watchdog is fed, nobody says."
+    said = f"Its watchdog is fed by {by[named]}." if named else "The manual does not say what feeds its watchdog."
     if counts_at_rest(drive):
         said += " It counts at standstill, too: then send a speed of 0 as often."
     return said + (f" Set {own.time.setting} above three times the period." if own.time and own.time.setting else "")
