@@ -230,7 +230,9 @@ def test_every_place_that_a_user_reads_first_says_that_it_holds_no_brake() -> No
     pages = [root / "docs/line.md", root / "blocks/README.md", *FOLDER.glob("*.md"), *platforms]
     motors = [root / "examples/one_motor.st", root / "examples/three_makes.st"]
     texts = {"README.md": screen, **heads, **{str(path): path.read_text("utf-8") for path in [*pages, *motors]}}
-    assert len(pages) == 2 + len(blocks) + len(("Wiring", "Swapping", "Families", "FirstMotor")) + len(platforms)
+    assert len(pages) == 2 + len(blocks) + len(FAMILIES) + len(("Wiring", "Swapping", "Families", "FirstMotor")) + len(
+        platforms
+    )
     lost = [name for name, text in texts.items() if BRAKE not in " ".join(text.replace("> ", "").split())]
     assert lost == []
     for family in FAMILIES:

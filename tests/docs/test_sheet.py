@@ -25,7 +25,7 @@ def sheet(*words: str) -> tuple[int, str]:
 
 def cells(text: str, id_: str) -> list[str]:
     """What is to be set, what is delivered, and the number on the bus."""
-    row = next(each for each in text.splitlines() if each.startswith(f"| [ ] | {id_} "))
+    row = next(each for each in text.splitlines() if each.startswith(f"| [\xa0] | {id_} "))
     return [each.strip() for each in row.split("|")[3:6]]
 
 
@@ -103,7 +103,7 @@ def test_each_sheet_has_every_setting_once(drive: Drive) -> None:
     line = keypad.wanted(drive, serial(drive).highest, None, None, None)
     text = keypad.page(drive, drive.prefix.lower(), line)
     for one in settings(drive):
-        assert text.count(f"| [ ] | {one.keypad.code} ") == 1
+        assert text.count(f"| [\xa0] | {one.keypad.code} ") == 1
 
 
 def test_limits_and_ramps_stand_together_and_what_stays_as_delivered_last() -> None:

@@ -47,7 +47,7 @@ def run(drive: str, master: bool, address: int, full_scale: float, **words: Any)
         refuse(f"the unit addresses of this drive are {line.lowest} to {line.highest}, not {address}")
     if full_scale <= 0:
         refuse(f"`--full-scale` is more than 0 Hz, not {full_scale:g}")
-    click.echo(recipe.page(known, address, full_scale))
+    click.echo(recipe.page(known, drive, address, full_scale))
 
 
 def _settings(known: "Drive", word: str, unit: int, **words: Any) -> str:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from math import ceil
 from typing import Any
 
-from driveblocks.docs import bus, chain, evidence, keypad, ladder, network, socket, states, sto, timing
+from driveblocks.docs import brief, bus, chain, evidence, keypad, ladder, network, recipe, socket, states, sto, timing
 from driveblocks.docs.members import members
 from driveblocks.docs.pins import Pin, pins
 from driveblocks.maps import inventory, references, rivals, trust
@@ -20,7 +20,7 @@ from driveblocks.meaning.polls import Poll, polls, schedule, wire_ms
 from driveblocks.meaning.quantity import quantity
 from driveblocks.meaning.reference import reference
 from driveblocks.meaning.serial import serial
-from driveblocks.meaning.setting import Setting, settings
+from driveblocks.meaning.setting import setting, settings
 from driveblocks.meaning.status import status
 from driveblocks.meaning.watchdog import at_rest, counts_at_rest, feeds, watchdog
 from driveblocks.meaning.words import words
@@ -104,14 +104,15 @@ def pages(drives: list[Drive], checked: Checked, own: Mapping[str, Own], platfor
     declared = [one for unit in checked.units for one in unit.elements if isinstance(one, TypeDecl)]
     types = {one.name: one for one in declared}
     for drive in drives:
-        name = f"{drive.prefix}_Drive"
+        name, mine = f"{drive.prefix}_Drive", own.get(drive.prefix, Own())
         block = blocks[name]
         inputs, in_outs, outputs = _pins(drive, block)
         values: dict[str, Any] = {"inputs": inputs, "in_outs": in_outs, "outputs": outputs}
         values["settable"], values["diagnosis"] = (
             members(types[one], drive) for one in ("VFD_Settings", "VFD_Diagnosis")
         )
-        found[f"{FOLDER}/{name}.md"] = _page(drive, checked, values, own.get(drive.prefix, Own()), platforms)
+        found[f"{FOLDER}/{name}.md"] = _page(drive, checked, values, mine, platforms)
+        found[f"{FOLDER}/{drive.prefix}_Master.md"] = recipe.page(drive, mine.word or drive.prefix.lower(), page=name)
         found[f"{FOLDER}/{name}.svg"] = ladder.picture(name, "Motor", inputs, in_outs, outputs)
         found[f"{FOLDER}/{name}_timing.svg"] = timing.picture(drive, name)
         if plug(drive).drawn:
@@ -185,12 +186,13 @@ def _turns_on(drive: Drive) -> str:
     """How long a motor turns on without the line, by the drive's own watchdog."""
     own = watchdog(drive)
     time = own.time if own else None
-    if time is None or time.setting is None:
+    by = setting(drive, time.setting) if time else None
+    if time is None or by is None:
         return "its watchdog, of unknown time" if own else "not known"
     if time.least_ms is None or time.most_ms is None:
-        return f"as `{time.setting}` says"
+        return f"as `{by.keypad.code}` says"
     least, most = (each / 1000 for each in (time.least_ms, time.most_ms))
-    return f"{least.normalize():f} to {most.normalize():f} s, `{time.setting}`"
+    return f"{least.normalize():f} to {most.normalize():f} s, `{by.keypad.code}`"
 
 
 def _wires(drive: Drive) -> dict[str, str]:
@@ -280,6 +282,10 @@ def _page(drive: Drive, checked: Checked, values: Mapping[str, Any], own: Own, p
     return render(
         "docs/Drive.md.j2",
         manual=context.title(drive),
+        questions=brief.questions(drive, own.word or drive.prefix.lower()),
+        speeds=list(brief.speeds(drive)),
+        unset=list(brief.unset(drive)),
+        unreset=list(brief.unreset(open_)),
         heard=trust.heard(drive),
         places=evidence.places(drive),
         documents=evidence.documents(drive),
@@ -305,7 +311,6 @@ def _page(drive: Drive, checked: Checked, values: Mapping[str, Any], own: Own, p
         settings=settings(drive),
         keypad=keypad.rows(drive),
         run_sources=[each for each in settings(drive) if each.needed and each.needed.by_terminals is not None],
-        stay=[each for each in settings(drive) if _stays(each)],
         hazards=[each for each in drive.notices if _matters(each)],
         nevers=list(conduct.nevers(drive)),
         open=open_,
@@ -379,11 +384,6 @@ def _guessed(drive: Drive) -> bool:
 
 
 # ---------------------------------------------------------------- what a person sets, and has to find out
-
-
-def _stays(setting: Setting) -> bool:
-    needed = setting.needed
-    return needed is not None and needed.right != () and needed.by_terminals is None
 
 
 def _matters(notice: Notice) -> bool:

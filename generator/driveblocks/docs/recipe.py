@@ -27,6 +27,8 @@ LAST_READ = 4
 """Function codes up to this one read."""
 HERTZ = 25
 """The speed of the example."""
+FULL_HZ = 50.0
+"""What 100 % is, where nobody says."""
 
 
 @dataclass(frozen=True)
@@ -84,17 +86,20 @@ class Part:
     """When that ends."""
 
 
-def recipe(drive: Drive, unit: int = 1, full_scale_hz: float = 50.0) -> tuple[Part, ...]:
+def recipe(drive: Drive, unit: int = 1, full_scale_hz: float = FULL_HZ) -> tuple[Part, ...]:
     """All of it, the stop first. `full_scale_hz`: what 100 % is, where the reference is a part of something."""
     return tuple(_parts(drive, unit, full_scale_hz))
 
 
-def page(drive: Drive, unit: int = 1, full_scale_hz: float = 50.0) -> str:
-    """All of it as Markdown."""
+def page(drive: Drive, word: str, unit: int = 1, full_scale_hz: float = FULL_HZ, *, page: str = "") -> str:
+    """All of it as Markdown. `word` is what the map is called in a command; `page`: the drive's, if it lies beside."""
     return render(
         "docs/Master.md.j2",
         title=drive.family.en,
         prefix=drive.prefix,
+        word=word,
+        page=page,
+        part=reference(drive).part,
         unit=unit,
         parts=recipe(drive, unit, full_scale_hz),
         barred=never(drive),
@@ -121,12 +126,12 @@ def _parts(drive: Drive, unit: int, full_scale_hz: float) -> Iterator[Part]:
                    tuple(_reads(drive, unit, sign.patterns, "no start while")),
                    until=tuple(each.other for each in sign.patterns))  # fmt: skip
     yield Part("Read", "From now on, all the time.", tuple(_status(drive, unit)), EVERY_MS)
-    speed = _speed(drive, unit, full_scale_hz)
+    wanted = speed(drive, unit, full_scale_hz)
     yield Part(
-        "Start", "Only while standstill is proved; the speed first.", (speed, *_writes(drive, unit, "run_forward"))
+        "Start", "Only while standstill is proved; the speed first.", (wanted, *_writes(drive, unit, "run_forward"))
     )
     last = list(_writes(drive, unit, "run_forward"))[-1:] if feeds(drive) == "run" else []
-    yield Part("Keep it running", _fed(drive), (speed, *last), _period(drive))
+    yield Part("Keep it running", _fed(drive), (wanted, *last), _period(drive))
     yield Part("Stop again", "As above: again until standstill is proved.",
                (*stop, *_reads(drive, unit, stands)), AGAIN_MS, stands)  # fmt: skip
     if "fault_reset" in able:
@@ -147,7 +152,8 @@ def _says(drive: Drive, write: Write) -> str:
     return words(drive).of(write).says(write.word) or "no motion; a step on the way"
 
 
-def _speed(drive: Drive, unit: int, full_scale_hz: float) -> Request:
+def speed(drive: Drive, unit: int = 1, full_scale_hz: float = FULL_HZ) -> Request:
+    """What writes the speed of the example."""
     known = reference(drive)
     counts = known.ratio * HERTZ / round(full_scale_hz) if known.part else known.ratio * HERTZ
     word, first = round(counts), min(known.registers)
@@ -170,7 +176,7 @@ def _scaled(drive: Drive, full_scale_hz: float) -> str:
     return f"; {float(known.ratio):g} for each hertz"
 
 
-def _reads(drive: Drive, unit: int, patterns: Sequence[Pattern], says: str = "it has to be") -> Iterator[Request]:
+def _reads(drive: Drive, unit: int, patterns: Sequence[Pattern], says: str = "check that") -> Iterator[Request]:
     """One read for each register."""
     for register in registers(patterns):
         said = " and ".join(str(each) for each in patterns if each.register == register)
@@ -206,7 +212,7 @@ def _fed(drive: Drive) -> str:
         return "The manual knows of no watchdog: what the drive does when the line is cut, it does not say."
     by = {"polls": "any request" if own.feeds == "any" else "reads", "reference": "the speed", "run": "the run command"}
     named = feeds(drive)
-    said = f"Its watchdog is fed by {by[named]}." if named else "By what its watchdog is fed, nobody says."
+    said = f"Its watchdog is fed by {by[named]}." if named else "The manual does not say what feeds its watchdog."
     if counts_at_rest(drive):
         said += " It counts at standstill, too: then send a speed of 0 as often."
     return said + (f" Set {own.time.setting} above three times the period." if own.time and own.time.setting else "")

@@ -32,11 +32,29 @@ def silent_line(drive: Drive) -> str:
     return UNKNOWN + ": count on a motor that runs on" if own is None else "; ".join(_watchdog(drive, own))
 
 
+def delivered(drive: Drive) -> str:
+    """What the motor does when the cable is cut and nobody has changed what the watchdog is set to."""
+    own = watchdog(drive)
+    if own is None:
+        return UNKNOWN + ": count on a motor that runs on"
+    off = setting(drive, own.off[0]) if own.off else None
+    if own.off and off and off.factory == own.off[1]:
+        return f"as delivered ({off.keypad.code} {off.delivered}) the motor runs on"
+    chosen, by = setting(drive, own.chosen_by), setting(drive, own.time.setting) if own.time else None
+    does = next((_DOES[does] for value, does in own.reactions if chosen and chosen.factory == value), None)
+    if chosen is None or does is None:
+        return f"what {chosen.keypad.code} says; how it is delivered is not known" if chosen else UNKNOWN
+    after = (
+        f"after {by.delivered} of silence ({by.keypad.code})" if by and by.default else "after a time that is not known"
+    )
+    return f"as delivered ({chosen.keypad.code} {chosen.delivered}) {does} {after}"
+
+
 def _watchdog(drive: Drive, own: Watchdog) -> Iterator[str]:
     chosen = setting(drive, own.chosen_by)
     does = ", ".join(_reaction(*each, chosen) for each in own.reactions)
-    yield f"{chosen.id} = {does}" if chosen else does
-    if own.off is not None:
+    yield f"by {chosen.keypad.code}: {does}" if chosen else does
+    if own.off is not None and own.off[0] != own.chosen_by:
         yield f"{own.off[0]} = {own.off[1]}: the motor runs on, whatever else is set"
     time, fed = own.time, _FEEDS.get(own.feeds or "")
     if own.fed_by:
