@@ -1,4 +1,4 @@
-"""Six questions of a technician, answered at the top of the page of each drive: typed by hand, from what the maps say."""
+"""Six questions of a technician at the top of each page: answers typed by hand, from what the maps say."""
 
 import re
 

@@ -304,7 +304,7 @@ def test_a_drive_that_stores_nothing_refuses_a_store_and_the_stored_twin_of_the_
 def test_show_lists_what_the_drive_does_by_itself_and_says_of_itself(tmp_path: Path) -> None:
     page = " ".join(run("cia402", tmp_path, "show", "MAP").split())
     assert (
-        "cable cut P3.02 = 0 ignore: the motor runs on, 1 coast stop (factory): the motor coasts, 2 fallback speed: "
+        "cable cut by P3.02: 0 ignore: the motor runs on, 1 coast stop (factory): the motor coasts, 2 fallback speed: "
         "the motor changes to another speed; P3.01 = 0: the motor runs on, whatever else is set; "
         "after P3.01, 0.0 to 60.0 s; fed by any good frame; it does not start again by itself (section 1)"
     ) in page
