@@ -154,3 +154,11 @@ def test_what_waited_for_another_masters_reply_waits_no_longer_than_that() -> No
 def test_a_reply_that_nobody_has_asked_for_is_a_surplus() -> None:
     block = stray(REPLY, ForeignMs=25, LateOwed=1)
     assert (block["Ours"], block["ForeignMs"], block["Surplus"]) == (False, 0, 0)
+
+
+@pytest.mark.parametrize(("first", "waits"), [(True, 60), (False, 0)])
+def test_a_read_that_has_not_waited_may_have_got_the_reply_before(first: bool, waits: int) -> None:
+    """What is read before the first stop waits for no late reply; each one after it was taken for the next."""
+    pins = {"Event": 1, "Online": True, "PollFirst": first, "LongestMs": 60, "Polled": True}
+    block = called(part("MB_Life", **pins, Track__LateOwed=1, Track__LateMs=5))
+    assert (block["Track.WaitMs"], block["Track.LateMs"]) == (waits, waits or 5)

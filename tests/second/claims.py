@@ -493,7 +493,8 @@ class Claims:
         told = bench.shows("StopOverdue", index) and not bench.shows("CommOk", index)
         self._once(index, "no line", bad=alone and not told and not bench.pins[index].get("SupplyOff"))
         pins = bench.pins[index]
-        taken = self._taken(index) if now - claim.changed_us > ATTEND_US else ""
+        # the one before it may hold for two seconds after its end
+        taken = self._taken(index) if now - claim.changed_us > 2 * ATTEND_US else ""
         reasons, error = TAKEN.get(taken, ((), None))
         shown = bench.reason(index), bench.out("ErrorID", index)
         told = shown[0] in reasons and error in (None, shown[1])
@@ -597,7 +598,8 @@ class Claims:
             index, "at speed", bad=quiet and not (bench.shows("AtSpeed", index) and bench.shows("Running", index))
         )
         well = ("RUNS", "SLOW_LINE", *["HEARTBEAT"] * bool(pins.get("WatchdogMs")))
-        alone, reason = not any_of(AWAY, pins), bench.reason(index)
+        alone = not any_of(AWAY, pins) and not bench.shows("StopOverdue", index)
+        reason = bench.reason(index)
         self._once(index, "says that it runs", bad=quiet and alone and reason not in well, seen=(reason,))
         wrong = (
             bench.shows("AtSpeed", index) and one.by == "bus" and self._was_far(index, asked) and not self.lies(index)

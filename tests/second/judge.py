@@ -534,7 +534,8 @@ class Judge:
         since = max(unit.reads_us, unit.unknown_us, self.claims.claims[index].changed_us)
         most = 1000 * int(bench.number("StaleMs", index)) + REFUSED_US + CODE_MOST * round_us(bench)
         refused = now - since > most and not bench.pins[index].get("SupplyOff")
-        told = bench.reason(index) == "READ_REFUSED" or good
+        # a drive that has to prove what it is, and refuses, is taken for another one
+        told = bench.reason(index) in {"READ_REFUSED", "OTHER_DRIVE"} or good
         self.once(index, "refused", bad=refused and not told, seen=(bench.reason(index),))
         refuses = unit.refuses_us > 0 and now - unit.refuses_us < CALM_US
         # in slow scans, stops that it refuses leave too few turns to read it

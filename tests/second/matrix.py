@@ -58,6 +58,8 @@ FOLLOW_MS = 8000
 """From an edge to the reason that it is not followed: FollowWithinMs, 5 s, from the answer to run."""
 READY_MS = 14_000
 """From the end of an event until it can be started again."""
+STOPPING = 0
+"""State of a block whose stop has not ended."""
 RESET_MS = 8000
 """For a reset, which is given up after 10 s."""
 FOREIGN_MS = 15_000
@@ -255,7 +257,8 @@ class Run:
             return b.wait(lambda: b.shows("Ready", index) and b.shows("StopConfirmed", index), most)
         good = b.wait(lambda: b.shows("CommOk", index), most)
         b.run(2000)  # stops of a restart, which may end what terminals run
-        b.wait(lambda: not b.shows("StopOverdue", index), most)  # one that is refused ends when standstill is read
+        # one that is refused ends when standstill is read
+        b.wait(lambda: not b.shows("StopOverdue", index) and b.number("State", index) != STOPPING, most)
         return good
 
     def at_speed(self, index: int = 0) -> bool:

@@ -27,8 +27,11 @@ FINISH_US = 500_000
 """A reset of several writes is finished although its fault has gone; a stop that is over may be followed by another."""
 AGAIN_US = 4_000_000
 """Within this time after a second block has left its slot a drive gets its own block's stop again."""
-OVERDUE_US = 1_500_000
-"""After StopWithinMs, until a motor that is not shown at standstill is shown as overdue."""
+OVERDUE_US = 4_000_000
+"""After StopWithinMs, until a motor that does not stand is shown as overdue; one that the keypad has started counts
+from the next repetition of its stop."""
+PROOF_US = 1_000_000
+"""From the end of a stop that was overdue to the proof."""
 READING = 5
 """State of MonitorOnly."""
 
@@ -58,6 +61,8 @@ class Orders:
         """When its slot or its address was last another's, too."""
         self.astray_us: int | None = None
         self.idle_us: int | None = None
+        self.overdue_us = 0
+        """When it was last shown as overdue."""
         """Since when it is to stand, and is not shown so."""
         self.frames = self.acknowledged = 0
         self.before: tuple[int, ...] = ()
@@ -169,7 +174,8 @@ class Orders:
         self.moved = bool(pins.get("Restart")) or (
             not confirmed and (self.moved or self._shows("Running") or self.commanded)
         )
-        elsewhere = pins.get("Address") != self.index + 1
+        left = bench.now - self.taken_us < AGAIN_US // 2  # another block, perhaps of another unit
+        elsewhere = left or pins.get("Address") != self.index + 1
         self.moved_us = bench.now if elsewhere else self.moved_us  # another unit has its time to boot, too
         boots = elsewhere or bench.now < max(max(unit.restarted_us, self.moved_us) + BOOT_US, unit.back_us)
         tripped = self._shows("Fault") and self._shows("ZeroSpeed")  # its stop stays open, and is not overdue
@@ -181,4 +187,5 @@ class Orders:
             and bench.now - self.idle_us > 1000 * int(bench.number("StopWithinMs", self.index)) + OVERDUE_US
         )
         rests = not bench.models[self.index].motor.hz(bench.now) and bench.reachable(self.index)  # what lacks is proof
-        self._once("overdue", bad=late and not rests and not self._shows("StopOverdue"))
+        self.overdue_us = bench.now if self._shows("StopOverdue") else self.overdue_us
+        self._once("overdue", bad=late and not rests and bench.now - self.overdue_us > PROOF_US)

@@ -5,7 +5,7 @@ from tests.second.bench import Second
 from tests.second.drive import RUNS, STOPS
 from tests.second.events import ignore
 from tests.second.matrix import named, run
-from tests.second.station import types_of
+from tests.second.station import library, types_of
 
 TERMINALS = {"run": 1}
 DOUBLED = 55
@@ -388,3 +388,18 @@ def test_a_stop_pin_takes_the_reference_back_although_the_stop_is_refused() -> N
     b.put(0, Enable=False).run(2000)
     assert b.models[0].reference_hz == 0.0
     assert not b.shows("StopOverdue")
+
+
+def test_a_drive_that_refuses_both_stops_of_a_jog_gets_both_again() -> None:
+    """The end of the jog was left out as one that it does not know; it took the other at last, and jogged on."""
+    block, calls = library().instance("VFD_StopRound"), []
+    pins = {"CanStopJog": True, "JogPosted": True, "JogLast": True, "Seen.CommOk": True, "Seen.Moving": True}
+    for name, value in {**pins, "Asked.StopKind": 1, "Due": True, "Seen.Restarted": True}.items():
+        block[name] = value
+    for _ in range(6):
+        block.scan()
+        calls.append((block["Kind"], block["Posts"]))
+        refused = {"AskNumber": block["Number"], "TriedNumber": block["Number"], "AnswerErrorID": 40}
+        for name, value in {**refused, "Due": False, "Seen.Restarted": False}.items():
+            block[name] = value
+    assert calls == 3 * [(4, True), (1, True)]

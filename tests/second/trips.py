@@ -86,6 +86,7 @@ class Trips:
         most = max(CALM_US // 2, CODE_MOST * round_us(bench))
         dead = any(now - each.away_us < most for each in self.judge.units)
         most += 2 * round_us(bench) if dead else 0  # stops that are not answered come first
+        most += 2 * round_us(bench) if bench.ascii else 0  # two reads have to agree
         most += CALM_US if 0 < now - self.judge.many_us < 2 * CALM_US else 0  # so do the last reads of those that die
         old = self.since_us is not None and now - max(self.since_us, changed_us) > most and shown
         old = old and self.judge.known(index, CALM_US // 2) and not bench.pins[index].get("SupplyOff")
