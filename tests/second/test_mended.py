@@ -7,7 +7,11 @@ from tests.second.events import ignore
 from tests.second.matrix import named, run
 from tests.second.station import library, types_of
 
+from structured_text.engines.engine import Value
+
 TERMINALS = {"run": 1}
+REFUSED = 40
+"""Error of a request that the drive has refused."""
 DOUBLED = 55
 """LineErrorID: two slots have one unit address."""
 COIL, RESET, ON = 5, 3, 0xFF00
@@ -390,16 +394,25 @@ def test_a_stop_pin_takes_the_reference_back_although_the_stop_is_refused() -> N
     assert not b.shows("StopOverdue")
 
 
-def test_a_drive_that_refuses_both_stops_of_a_jog_gets_both_again() -> None:
-    """The end of the jog was left out as one that it does not know; it took the other at last, and jogged on."""
-    block, calls = library().instance("VFD_StopRound"), []
-    pins = {"CanStopJog": True, "JogPosted": True, "JogLast": True, "Seen.CommOk": True, "Seen.Moving": True}
-    for name, value in {**pins, "Asked.StopKind": 1, "Due": True, "Seen.Restarted": True}.items():
-        block[name] = value
-    for _ in range(6):
-        block.scan()
-        calls.append((block["Kind"], block["Posts"]))
-        refused = {"AskNumber": block["Number"], "TriedNumber": block["Number"], "AnswerErrorID": 40}
-        for name, value in {**refused, "Due": False, "Seen.Restarted": False}.items():
+def rounds(refused: str) -> list[object]:
+    """The kinds of stop that follow each other after a restart, and whether each is refused, R, or acknowledged, A."""
+    block, kinds = library().instance("VFD_StopRound"), list[object]()
+    pins = {"CanStopJog": True, "JogPosted": True, "Seen.CommOk": True, "Seen.Moving": True, "Asked.StopKind": 1}
+    answer: dict[str, Value] = {"Due": True, "Seen.Restarted": True, **pins}
+    for how in refused:
+        for name, value in answer.items():
             block[name] = value
-    assert calls == 3 * [(4, True), (1, True)]
+        block.scan()
+        kinds.append(block["Kind"] if block["Posts"] else "closed")
+        number = block["Number"]
+        answer = {"Due": False, "Seen.Restarted": False, "AskNumber": number, "TriedNumber": number}
+        answer |= {"AnswerErrorID": REFUSED if how == "R" else 0} | ({} if how == "R" else {"AnswerNumber": number})
+    return kinds
+
+
+def test_a_drive_that_refuses_both_stops_of_a_jog_gets_both_until_it_takes_each() -> None:
+    """The end of the jog was left out as one that it does not know; it took the other at last, and jogged on."""
+    stop, end = 1, 4
+    assert rounds("RRRRAA ") == [stop, end, stop, end, stop, end, "closed"]
+    assert rounds("RRRAA ") == [stop, end, stop, end, stop, "closed"]
+    assert rounds("ARA ") == [stop, end, stop, "closed"]
