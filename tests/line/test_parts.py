@@ -162,3 +162,10 @@ def test_a_read_that_has_not_waited_may_have_got_the_reply_before(first: bool, w
     pins = {"Event": 1, "Online": True, "PollFirst": first, "LongestMs": 60, "Polled": True}
     block = called(part("MB_Life", **pins, Track__LateOwed=1, Track__LateMs=5))
     assert (block["Track.WaitMs"], block["Track.LateMs"]) == (waits, waits or 5)
+
+
+@pytest.mark.parametrize(("back", "left"), [(True, 0), (False, 4)])
+def test_a_block_that_is_back_sends_its_own_stop_to_a_drive_that_refuses_the_lines(back: bool, left: int) -> None:
+    """The two were refused in turn for good; the block never learned that, and no standstill ended them."""
+    pins = {"Number": 36, "Answered": 32, "Tried": 34, "StopAgain": True, "HasCode": True, "BlockIsBack": back}
+    assert called(part("MB_Stop", Passed=10, Online=True, **pins, Track__Forced=4))["Track.Forced"] == left
