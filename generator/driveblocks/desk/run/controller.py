@@ -97,7 +97,7 @@ class LineEnd:
 
     def __init__(self, program: Controller, wiring: LineWiring) -> None:
         self.wiring = wiring
-        self._program = program
+        self.program = program
         self._mailbox = Mailbox(program.instance, wiring)
         self._port: Port
         self._free: frozenset[tuple[int, str]] | None = None
@@ -144,18 +144,18 @@ class LineEnd:
         """Set an input of the line that the port fills."""
         path = self.wiring.pins[pin]
         if path is not None:
-            self._program.instance[path] = value
+            self.program.instance[path] = value
 
     def number(self, pin: str) -> int:
         """A whole number of the line."""
-        return self._program.number(f"{self.wiring.line}.{pin}")
+        return self.program.number(f"{self.wiring.line}.{pin}")
 
     def units(self) -> dict[int, Drive]:
         """The drive at each unit address; one that two maps claim is nobody's."""
         found: dict[int, Drive] = {}
         doubted: set[int] = {0}
         for block in self.wiring.drives:
-            unit, drive = self._program.unit(block), self._program.drive(block)
+            unit, drive = self.program.unit(block), self.program.drive(block)
             if found.setdefault(unit, drive) is not drive:
                 doubted.add(unit)
         return {unit: drive for unit, drive in found.items() if unit not in doubted}
@@ -164,14 +164,14 @@ class LineEnd:
         """The drive blocks at each unit address."""
         names: dict[int, list[str]] = {}
         for block in self.wiring.drives:
-            names.setdefault(self._program.unit(block), []).append(block.path)
+            names.setdefault(self.program.unit(block), []).append(block.path)
         return names
 
     @property
     def late_ms(self) -> int:
         """How long the program lets its port keep a request and a reply back."""
         path = self.wiring.pins["PORTLATEMS"]
-        return self._program.number(path) if path else self.number("PortLateMs")
+        return self.program.number(path) if path else self.number("PortLateMs")
 
     def _unit_of(self, frame: bytes) -> int:
         body = opened("ascii", frame) or opened("rtu", frame) or b"\0\0"
@@ -182,12 +182,12 @@ class LineEnd:
     def _passes(self, frame: bytes) -> bool:
         if self._free is None:
             return True
-        now = {(self._program.unit(block), block.path) for block in self.wiring.drives}
+        now = {(self.program.unit(block), block.path) for block in self.wiring.drives}
         if self._guard is None or now != self._judged:
             units = self.units()
             strangers = {unit for unit, _ in now - self._free}
             free = frozenset(unit for unit, _ in now & self._free if unit in units and unit not in strangers)
-            self._guard, self._judged = Guard(units, free, self._program.dropped), now
+            self._guard, self._judged = Guard(units, free, self.program.dropped), now
         return self._guard.passes(frame)
 
 
