@@ -30,7 +30,7 @@ def largest(blocks: Iterable[FunctionBlock]) -> tuple[str, int] | None:
 
 
 def kept(kind: Type) -> int:
-    """Bytes of an instance without in-outs, its own and those of its blocks: they refer to what is counted elsewhere."""
+    """Bytes of an instance without in-outs, its own and its blocks': they refer to what is counted elsewhere."""
     if not isinstance(kind, Block) or kind.declaration is None:
         return kind.size
     return sum(kept(one.type) for one in kind.declaration.symbols.values() if one.kind is not VarKind.IN_OUT)
