@@ -152,8 +152,8 @@ class Group(Gathered):
     duty: Count | None = option("duty_standby: how many run at once; else 1", "1")
     delay_ms: Count | None = option("sequence: time between two starts, ms; else 1000", "2000")
     change: Literal["never", "starts", "hours"] | None = option(
-        "duty_standby: who is first at the next start: always the first of the list, the next one in turn, or the one "
-        "with the fewest hours; else never",
+        "duty_standby: who is first at a start: always the first of the list, the one with the fewest starts, or with "
+        "the fewest hours; else never",
         "starts",
     )
 
