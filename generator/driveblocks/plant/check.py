@@ -42,7 +42,7 @@ def judged(path: Path) -> Judged:
         _clash(plant, report)
         line.check(plant, report)
         drive.check(plant, report)
-        if not report.problems:
+        if not report.problems and _whole(plant):
             found = _figures(plant, report, warnings)
         name.check(plant, report)
         reference.check(plant, report)
@@ -61,11 +61,17 @@ def spoken(path: Path) -> tuple[Plant, dict[str, Line]]:
         _clash(plant, report)
         line.check(plant, report)
         drive.check(plant, report)
-        if not any(plant.on(each) for each in plant.lines):
-            report.miss(plant.at, "no line has a drive", "name its line at each drive")
+        if not _whole(plant):
+            report.miss(plant.at, "a drive or a meter has no line", "run `driveblocks check`, which says all")
     report.raise_if_any()
     assert plant is not None  # noqa: S101 - else something was noted
     return plant, _lines(plant)
+
+
+def _whole(plant: Plant) -> bool:
+    """Whether there is a line for each unit, and a drive at all."""
+    named = {each.line for each in plant.drives.values()}
+    return bool(named) and named | {each.line for each in plant.meters.values()} <= plant.lines.keys()
 
 
 def _lines(plant: Plant) -> dict[str, Line]:
@@ -83,7 +89,7 @@ def _clash(plant: Plant, report: Report) -> None:
 
 def _figures(plant: Plant, report: Report, warnings: Report) -> dict[str, Figures]:
     """The figures of the lines that have drives; what does not hold is noted."""
-    made = _lines(plant) if any(plant.on(each) for each in plant.lines) else {}
+    made = _lines(plant)
     found = {each: figures(one, one.rate) for each, one in made.items()}
     for each, own in found.items():
         line.hold(plant, own, report)

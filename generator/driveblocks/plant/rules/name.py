@@ -1,5 +1,6 @@
 """Rules on names: each becomes a variable of the program, in every programming system."""
 
+from driveblocks.desk.site.kept import LABEL
 from driveblocks.maps import names
 from driveblocks.maps.problem import Report
 from driveblocks.plant.model import SECTIONS, Called, Plant, identifier
@@ -30,6 +31,8 @@ def check(plant: Plant, report: Report) -> None:
 
 def _wrong(name: str) -> str:
     """Why a variable of a program cannot have a name; empty: it can."""
+    if not LABEL.fullmatch(name):
+        return ""  # said where it was read
     if why := names.wrong_pin(name):
         return why
     if len(name) > LONGEST:

@@ -134,13 +134,13 @@ def _hard_stops(plant: Plant, report: Report) -> None:
 
 
 def _button(plant: Plant, button: Button, report: Report) -> None:
-    told = [key for key in DOES if getattr(button, key) is not None]
+    told = [key for key in DOES if key in button.keys]
     if len(told) != 1:
         wrong = f"{button.name} does {', '.join(told) or 'nothing'}"
         report.add(button.at, wrong, f"write one of {', '.join(DOES)}")
         return
-    key, of = told[0], button.of
-    if key == "stop_all" or not _target(plant, of, button.place(key), report):
+    key, of = told[0], getattr(button, told[0])
+    if key == "stop_all" or of is None or not _target(plant, of, button.place(key), report):
         return
     if key == "start" and of in plant.drives:
         mode, group = plant.drives[of].mode, plant.group_of(of)
@@ -153,11 +153,11 @@ def _button(plant: Plant, button: Button, report: Report) -> None:
 
 
 def _lamp(plant: Plant, lamp: Lamp, report: Report) -> None:
-    told = [key for key in SHOWS if getattr(lamp, key) is not None]
+    told = [key for key in SHOWS if key in lamp.keys]
     if len(told) != 1:
         wrong = f"{lamp.name} shows {', '.join(told) or 'nothing'}"
         report.add(lamp.at, wrong, f"write one of {', '.join(SHOWS)}")
-    else:
+    elif getattr(lamp, told[0]) is not None:
         _target(plant, lamp.of, lamp.place(told[0]), report)
 
 
