@@ -29,7 +29,9 @@ def problems(path: Path, text: str) -> tuple[Problem, ...]:
     return ()
 
 
-@pytest.mark.parametrize("name", ["conveyor", "pumps", "small"])
+@pytest.mark.parametrize(
+    "name", ["pumps", *(pytest.param(each, marks=pytest.mark.thorough) for each in ("conveyor", "small"))]
+)
 def test_the_examples_are_good_and_nothing_is_to_be_looked_at(name: str) -> None:
     judged = check.judged(EXAMPLES / f"{name}.yaml")
     assert judged.figures.keys() == judged.plant.lines.keys()
@@ -109,7 +111,7 @@ FOUND = """
 def test_what_commission_found_counts_unless_the_plant_says_otherwise(tmp_path: Path) -> None:
     path, given = tmp_path / "works.yaml", WORKS.replace("ramp_down_s: 10", "settings: {LongestMs: 500}")
     path.write_text(given + FOUND.format("P2", "invt_chf"), encoding="utf-8")
-    values = {name: str(each) for name, each in check.good(path).drives["P2"].values.items()}
+    values = {name: str(each) for name, each in load.load(path).drives["P2"].values.items()}
     assert values == {"FrequencyScale": "0.01", "LongestMs": "500", "TurnRoundMs": "50"}
 
 
