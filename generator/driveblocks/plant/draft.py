@@ -22,8 +22,12 @@ _HINT = "up to 22 letters and digits, a letter first"
 
 def skeleton(name: str) -> str:
     """The commented file, with another name."""
-    text = (files(__package__) / "skeleton.yaml").read_text(encoding="utf-8")
-    return text.replace("Pumping station  # the program is called after it: PumpingStation", _quoted(name), 1)
+    return example().replace("Pumping station  # the program is called after it: PumpingStation", _quoted(name), 1)
+
+
+def example() -> str:
+    """The commented file as it is."""
+    return (files(__package__) / "skeleton.yaml").read_text(encoding="utf-8")
 
 
 def asked(name: str, ask: Ask, say: Say) -> str:
