@@ -84,7 +84,7 @@ class Bench:
         for name, bus in self.buses.items():
             count, sent = self.program[f"{name}_TxCount"], self.program[f"{name}_Tx"]
             if count:
-                bus.send(bytes(sent[:count]), 1000 * self.now_ms)  # type: ignore[index,misc,arg-type]
+                bus.send(bytes(sent[:count]), 1000 * self.now_ms)  # type: ignore[index,arg-type]
 
     def run(self, ms: int) -> None:
         for _ in range(ms // SCAN_MS):

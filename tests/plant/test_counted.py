@@ -42,7 +42,7 @@ def test_analog_input(raw: int, value: float, broken: bool) -> None:
     assert one["One.Broken"] is broken
 
 
-def test_analog_input_that_falls_and_one_of_4_to_20_mA() -> None:
+def test_analog_input_that_falls_and_one_of_4_to_20_ma() -> None:
     one = made(SCALE, "Scale")
     one["RawLow"], one["RawHigh"], one["Raw"] = 27648, 5530, 5530
     one["Low"], one["High"] = 10.0, 40.0

@@ -1,6 +1,6 @@
 """Groups of drives: who is started when, call by call, with the pins of the drives typed by hand."""
 
-from collections.abc import Iterator
+from collections.abc import Mapping
 
 import pytest
 
@@ -37,7 +37,7 @@ class Group:
         for name, value in {"Count": count, **pins}.items():
             self.program[name] = value
 
-    def show(self, *members: dict[str, Value]) -> None:
+    def show(self, *members: Mapping[str, Value]) -> None:
         for number, pins in enumerate(members):
             for name, value in pins.items():
                 self.program[f"Members[{number}].{name}"] = value
@@ -56,7 +56,7 @@ class Group:
             if comm and not self.program[f"Members[{number}].Fault"]:
                 self.show_one(number, RUNNING if wanted else READY)
 
-    def show_one(self, number: int, pins: dict[str, Value]) -> None:
+    def show_one(self, number: int, pins: Mapping[str, Value]) -> None:
         for name, value in pins.items():
             self.program[f"Members[{number}].{name}"] = value
 
@@ -65,14 +65,14 @@ class Group:
 
 
 @pytest.fixture
-def pumps() -> Iterator[Group]:
+def pumps() -> Group:
     """Three of which one runs; the first was started by an edge."""
     made = Group("VFD_Duty")
     made.show(READY, READY, READY)
     made.call(False)
     assert made.call(True) == [True, False, False]
     made.follow()
-    yield made
+    return made
 
 
 def test_command_that_was_held_before_starts_nothing() -> None:
@@ -144,7 +144,7 @@ def test_silence_of_a_standby_starts_nothing(pumps: Group) -> None:
 
 
 @pytest.mark.parametrize("first", [TRIPPED, SILENT])
-def test_reset_before_the_proof_ends_it(pumps: Group, first: dict[str, Value]) -> None:
+def test_reset_before_the_proof_ends_it(pumps: Group, first: Mapping[str, Value]) -> None:
     pumps.show_one(0, first)
     pumps.call(True)
     pumps.show_one(0, TRIPPED)
@@ -176,7 +176,7 @@ def test_stop_while_the_proof_is_waited_for_ends_it(pumps: Group) -> None:
 
 
 @pytest.mark.parametrize("last", [READY, TRIPPED | {"Halted": True}, STANDS | {"Halted": True}])
-def test_drive_that_a_hand_stopped_is_not_replaced(pumps: Group, last: dict[str, Value]) -> None:
+def test_drive_that_a_hand_stopped_is_not_replaced(pumps: Group, last: Mapping[str, Value]) -> None:
     pumps.show_one(0, last)
     assert pumps.call(True) == [False] * 3
     pumps.show_one(0, STANDS)
@@ -288,7 +288,7 @@ def test_sequence_waits_until_the_one_before_runs() -> None:
 
 @pytest.mark.parametrize("ends", [TRIPPED, SILENT, READY, RUNNING | {"Halted": True}])
 @pytest.mark.parametrize("which", [0, 1])
-def test_one_that_ends_ends_the_sequence(ends: dict[str, Value], which: int) -> None:
+def test_one_that_ends_ends_the_sequence(ends: Mapping[str, Value], which: int) -> None:
     made = Group("VFD_Group", count=2, Chain=True)
     made.show(READY, READY)
     made.call(False)

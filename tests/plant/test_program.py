@@ -1,5 +1,7 @@
 """The programs of the example plants: their motors turn, and nothing turns that no hand has started."""
 
+from itertools import pairwise
+
 import pytest
 from tests.plant.bench import PLANTS, Bench, example
 
@@ -160,13 +162,13 @@ def test_pump_out_of_service_is_neither_started_nor_replaced() -> None:
 
 def test_belts_start_one_after_the_other_and_one_that_trips_stops_all() -> None:
     made = started("conveyor")
-    begun = {}
+    begun: dict[str, int] = {}
     for _ in range(2600):
         made.scan()
         begun |= {each: made.now_ms for each in made.turning() if each not in begun}
     assert [*begun] == [f"Belt{number}" for number in range(8, 0, -1)]
     times = [*begun.values()]
-    assert all(later - sooner >= 2900 for sooner, later in zip(times[1:], times[2:], strict=False))
+    assert all(later - sooner >= 2900 for sooner, later in pairwise(times[1:]))
     made.drives["Belt5"].trip(2)
     made.until(lambda: not made.turning())
     assert not made["Belts_Run"]
