@@ -11,7 +11,11 @@ from driveblocks.desk.site.kept import PLANT
 from driveblocks.maps.problem import MapError, Problem
 from driveblocks.maps.shape import keys_of
 from driveblocks.plant import check, load
+from driveblocks.plant.line import lines
 from driveblocks.plant.model import SECTIONS, Plant
+from driveblocks.plant.rules import memory
+from driveblocks.platforms.cost import CODE_KIB, FAMILY_KIB
+from driveblocks.render.library import PLANT as GROUPS
 
 HERE = Path(__file__).parent
 EXAMPLES = HERE.parents[1] / "examples/plants"
@@ -92,6 +96,20 @@ def test_a_plant_that_may_not_fit_is_good_with_a_warning(tmp_path: Path) -> None
     (warning,) = check.judged(path).warnings
     assert (warning.line, warning.column) == (2, 6)
     assert warning.wrong.startswith("S7-1217C has 150 kB, and the plant may take ")
+
+
+@pytest.mark.thorough
+def test_the_data_of_a_plant_is_what_the_page_of_memory_says(tmp_path: Path) -> None:
+    drives = "".join(
+        f"  M{unit}: {{drive: rockwell_powerflex_4, line: A, unit: {unit}, maximum_hz: 50, stop_within_ms: 15000}}\n"
+        for unit in range(1, 5)
+    )
+    path = tmp_path / "four.yaml"
+    path.write_text(f'plant: Four\nlines:\n  A: {{port: "1", rate: 19200}}\ndrives:\n{drives}', encoding="utf-8")
+    plant = load.load(path)
+    code = CODE_KIB[""] + CODE_KIB[GROUPS]
+    found = [round((each - 12_354) / 1024) - code for each in memory.needed(plant, lines(plant).values())]
+    assert found == [*FAMILY_KIB], "docs/memory.md says 12,354 bytes for four drives"
 
 
 FOUND = """
