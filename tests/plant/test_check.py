@@ -1,6 +1,8 @@
 """The rules of plants: each mistake at its place, several at once, and good plants good."""
 
+import re
 from pathlib import Path
+from random import Random
 
 import pytest
 import yaml
@@ -63,6 +65,15 @@ def test_all_mistakes_come_at_once(tmp_path: Path) -> None:
     for old, new in edits.items():
         text = text.replace(old, new)
     assert [each.line for each in problems(tmp_path / "works.yaml", text)] == [9, 9, 12, 16, 18]
+
+
+@pytest.mark.thorough
+def test_no_damage_to_a_file_is_more_than_a_mistake(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    chance, words = Random(7), ("[]", "{}", "5", "true", "''", "null", "-1", ": ", "{", "]", ", ", "P1", "Level", "Ü")
+    monkeypatch.setattr(check, "_figures", lambda *_: {})
+    for _ in range(300):
+        token = chance.choice([*re.finditer(r"[\w.]+|\[[^\]]*\]|\{[^}]*\}", WORKS)])
+        problems(tmp_path / "works.yaml", WORKS[: token.start()] + chance.choice(words) + WORKS[token.end() :])
 
 
 def test_one_drive_more_than_a_line_takes(tmp_path: Path) -> None:

@@ -102,7 +102,8 @@ class Members(Entry):
     @property
     def given(self) -> dict[str, Decimal]:
         """Those that the file gives."""
-        return {name: Decimal(getattr(self, name)) for name in self.keys}
+        values = {name: getattr(self, name) for name in self.keys}
+        return {name: Decimal(each) for name, each in values.items() if each is not None}
 
 
 @dataclass(frozen=True, kw_only=True)
