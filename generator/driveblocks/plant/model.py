@@ -6,10 +6,11 @@ from decimal import Decimal
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
+from driveblocks.desk.site.found import Way
 from driveblocks.desk.site.kept import LABEL, Kept, Ms
 from driveblocks.maps import model
 from driveblocks.maps.form import Form
-from driveblocks.maps.model import Count, Entry, Factor, Language, Number, Str, fact, option
+from driveblocks.maps.model import Count, Entry, Factor, Number, Str, fact, option
 from driveblocks.maps.problem import Place
 from driveblocks.modbus.frame import Mode
 
@@ -18,9 +19,7 @@ Label = Annotated[str, Form("name", LABEL, str, "write up to 24 letters and digi
 Amount = Annotated[
     Decimal, Form("amount", re.compile(_NUMBER), Decimal, "write a number such as 50 or 2.5", numeric=True)
 ]
-Named = Annotated[
-    str, Form("drive", re.compile(r"\S(.*\S)?"), str, "write a family, a model number or a map file", numeric=True)
-]
+Named = Annotated[str, Form("drive", re.compile(r"\S(.*\S)?"), str, "write a family, or a map file", numeric=True)]
 CharacterForm = Annotated[
     str, Form("format", re.compile("[78][NnEeOo][12]"), str.upper, 'write 8N1, 8N2, 8O1 or "8E1", with its quotes')
 ]
@@ -56,6 +55,19 @@ class Called(Entry):
 
 
 @dataclass(frozen=True, kw_only=True)
+class Gathered(Called):
+    """Base of what names drives."""
+
+    drives: tuple[Label, ...] = fact("its drives, in their order", "[P1, P2, P3]")
+    drives_at: dict[str, Place] = field(default_factory=dict, compare=False, repr=False)
+    """Where each is named first."""
+
+    def drive_at(self, drive: str) -> Place:
+        """Where a drive is named."""
+        return self.drives_at.get(drive, self.place("drives"))
+
+
+@dataclass(frozen=True, kw_only=True)
 class Line(Called):
     """An RS-485 line."""
 
@@ -64,44 +76,13 @@ class Line(Called):
     form: CharacterForm | None = option("data bits, parity, stop bits; else likewise", '"8E1"')
     mode: Mode | None = option("framing; else rtu where all its drives have it", "rtu")
 
-
-@dataclass(frozen=True, kw_only=True)
-class Motor(Called):
-    """A drive with its motor."""
-
-    drive: Named = fact("family, model number, or map file beside this one", "chf")
-    line: Label = fact("its line", "A")
-    unit: Number = fact("its unit address", "1")
-    maximum_hz: Amount = fact("the highest speed that the machine takes, Hz", "50")
-    full_scale_hz: Amount | None = option("what 100 % is in the drive, Hz, where it has the pin `FullScaleHz`", "50")
-    stop_within_ms: Count = fact("its longest ramp and a margin, ms", "15000")
-    ramp_up_s: Amount | None = option("from standstill to full speed, s, for its keypad", "5")
-    ramp_down_s: Amount | None = option("from full speed to standstill, s, for its keypad", "5")
-    mode: Literal["full", "speed", "monitor"] = option(
-        "`full`: run over the line; `speed`: run by its terminals, speed over the line; `monitor`: only read",
-        "full",
-        default="full",
-    )
-    watchdog_ms: Count | None = option("time of the drive's own watchdog, ms; else it has none", "2000")
-    speed: Speed | None = option("an analog input, or Hz; else a tag of the panel", "Level")
-    settings: "Members | None" = option(
-        "members of `VFD_Settings`, before what commission found", "{ReferenceScale: 20.0}"
-    )
-    manual_checked: Count | None = option(
-        "number on the page of a second-hand map, once somebody has checked it with the manual", "12345"
-    )
-
-    map: model.Drive = field(default=None, compare=False, repr=False)  # type: ignore[assignment]  # set by `load`
-    """Its map; `load` refuses a plant with a drive that has none."""
-    path: Path = field(default=Path(), compare=False, repr=False)
-    """The file of its map."""
-    values: dict[str, Decimal] = field(default_factory=dict)
-    """Members of its `VFD_Settings` that are not 0: as given here, else as commission found; its watchdog, too."""
+    way: Way = field(default=Way(9600))
+    """How it is spoken on: as given, else as its drives are delivered."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Members(Entry):
-    """What is set of `VFD_Settings`; times in ms."""
+    """`settings` of a drive: what is set of its `VFD_Settings`; times in ms."""
 
     TurnRoundMs: Ms | None = option("longest time until it answers", "60")
     LongestMs: Ms | None = option("no reply arrives later", "500")
@@ -121,23 +102,57 @@ class Members(Entry):
     @property
     def given(self) -> dict[str, Decimal]:
         """Those that the file gives."""
-        return {name: Decimal(getattr(self, name)) for name in self.keys}
+        values = {name: getattr(self, name) for name in self.keys}
+        return {name: Decimal(each) for name, each in values.items() if each is not None}
 
 
 @dataclass(frozen=True, kw_only=True)
-class Group(Called):
+class Motor(Called):
+    """A drive with its motor."""
+
+    drive: Named = fact("a family, a part of its name that no other has, or a map file beside this one", "chf")
+    line: Label = fact("its line", "A")
+    unit: Number = fact("its unit address", "1")
+    maximum_hz: Amount = fact("the highest speed that the machine takes, Hz", "50")
+    full_scale_hz: Amount | None = option("what 100 % is in the drive, Hz, where it has the pin `FullScaleHz`", "50")
+    stop_within_ms: Count = fact("its longest ramp and a margin, ms", "15000")
+    ramp_up_s: Amount | None = option("from standstill to full speed, s, for its keypad", "5")
+    ramp_down_s: Amount | None = option("from full speed to standstill, s, for its keypad", "5")
+    mode: Literal["full", "speed", "monitor"] = option(
+        "`full`: run over the line; `speed`: run by its terminals, speed over the line; `monitor`: only read",
+        "full",
+        default="full",
+    )
+    watchdog_ms: Count | None = option("time of the drive's own watchdog, ms; else it has none", "2000")
+    speed: Speed | None = option("an analog input, or Hz; else a tag of the panel", "Level")
+    settings: Members | None = option(
+        "members of `VFD_Settings`, before what commission found", "{ReferenceScale: 20.0}"
+    )
+    manual_checked: Count | None = option(
+        "number on the page of a second-hand map, once somebody has checked it with the manual", "12345"
+    )
+
+    map: model.Drive = field(default=None, compare=False, repr=False)  # type: ignore[assignment]  # set by `load`
+    """Its map; `load` refuses a plant with a drive that has none."""
+    path: Path = field(default=Path(), compare=False, repr=False)
+    """The file of its map."""
+    values: dict[str, Decimal] = field(default_factory=dict)
+    """Members of its `VFD_Settings` that are not 0: as given here, else as commission found; its watchdog, too."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Group(Gathered):
     """Drives that are started and stopped as one; a stop stops all of it."""
 
     kind: Literal["together", "sequence", "duty_standby"] = fact(
         "`together`: all at once; `sequence`: one after the other; `duty_standby`: some run, others take their place",
         "sequence",
     )
-    drives: tuple[Label, ...] = fact("its drives, in their order", "[P1, P2, P3]")
     duty: Count | None = option("duty_standby: how many run at once; else 1", "1")
     delay_ms: Count | None = option("sequence: time between two starts, ms; else 1000", "2000")
     change: Literal["never", "starts", "hours"] | None = option(
-        "duty_standby: who is first at the next start: always the first of the list, the next one in turn, or the one "
-        "with the fewest hours; else never",
+        "duty_standby: who is first at a start: always the first of the list, the one with the fewest starts, or with "
+        "the fewest hours; else never",
         "starts",
     )
 
@@ -192,10 +207,8 @@ class Lamp(Called):
 
 
 @dataclass(frozen=True, kw_only=True)
-class HardStop(Called):
-    """A contact in series with a hard stop."""
-
-    drives: tuple[Label, ...] = fact("the drives that it cuts", "[P1, P2]")
+class HardStop(Gathered):
+    """A contact in series with the hard stop of its drives."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -213,13 +226,13 @@ class Meter(Called):
 
 @dataclass(frozen=True, kw_only=True)
 class Plant(Entry):
-    """A plant; its entries by their names, in the order of the file."""
+    """The plant as a whole. Its sections hold entries by their names, in the order of the file."""
 
     plant: Str = fact("its name; the program is called after it", "Pumping station")
     scan_ms: Count = option("time between two scans, ms", "10", default=10)
     max_scan_ms: Count | None = option("the longest, ms; else twice `scan_ms`", "20")
-    cpu: Str | None = option("a controller of docs/memory.md, so that its memory is judged", "S7-1214C")
-    language: Language | None = option("a second language of alarms, beside English", "zh")
+    cpu: Str | None = option("a controller of docs/memory.md, so that its memory is judged", "S7-1217C")
+    language: Literal["en", "zh"] | None = option("a second language of alarms, beside English", "zh")
 
     lines: dict[str, Line] = field(default_factory=dict)
     drives: dict[str, Motor] = field(default_factory=dict)
@@ -232,6 +245,8 @@ class Plant(Entry):
     meters: dict[str, Meter] = field(default_factory=dict)
     found: dict[str, Kept] = field(default_factory=dict)
     """What commission found, by tag."""
+    written: dict[str, frozenset[str]] = field(default_factory=dict, compare=False, repr=False)
+    """All names of each section, those of entries with mistakes, too."""
 
     @property
     def longest_scan_ms(self) -> int:
