@@ -3,7 +3,7 @@
 from collections.abc import Iterable
 
 from driveblocks.render.library import CHINESE, FRAMES, LINE2, LINE32, METER, PARAMETERS
-from structured_text.language.tree import Block, FunctionBlock, VarKind
+from structured_text.language.tree import Block, FunctionBlock, Program, VarKind
 from structured_text.language.types import UNKNOWN, Type
 
 CODE_KIB = {"": 111, LINE2: 15, LINE32: 15, PARAMETERS: 11, METER: 4, FRAMES: 12, CHINESE: 18}
@@ -14,7 +14,7 @@ MEASURED = "matiec 6bb2c33 and gcc 12.2 `-Os` for x86-64, 2026-11-29"
 """By what, and when."""
 
 
-def data(block: FunctionBlock) -> int:
+def data(block: FunctionBlock | Program) -> int:
     """Bytes of one instance and, once, of what its in-outs refer to: the sum of the widths, a BOOL counts 1."""
     return _kept(block.type or UNKNOWN) + sum(
         one.type.size for one in block.symbols.values() if one.kind is VarKind.IN_OUT
