@@ -1,6 +1,6 @@
 """Load a plant: file -> text -> nodes -> model, with every mistake of the file in one MapError."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from decimal import Decimal
 from pathlib import Path
@@ -11,10 +11,11 @@ from driveblocks.desk.site.sheet import members
 from driveblocks.maps import catalog, nodes, source
 from driveblocks.maps.decode import build
 from driveblocks.maps.load import load as load_map
-from driveblocks.maps.nodes import Entries, Node
-from driveblocks.maps.problem import MapError, Refused, Report
+from driveblocks.maps.nodes import Entries, Items, Node, Scalar
+from driveblocks.maps.problem import MapError, Place, Refused, Report
 from driveblocks.maps.shape import EntryOf
-from driveblocks.plant.model import SECTIONS, HardStop, Motor, Plant
+from driveblocks.plant import speech
+from driveblocks.plant.model import SECTIONS, Gathered, HardStop, Line, Motor, Plant
 from structured_text.visible import file_name
 
 DEFAULT_HARD_STOP = "HardStop"
@@ -42,8 +43,10 @@ def read(path: Path, report: Report) -> Plant | None:
     if not isinstance(plant, Plant):
         return None
     made: dict[str, Any] = {key: dict(_section(root, key, report)) for key in SECTIONS}
-    plant = replace(plant, **made, found=dict(_found(root, report)))
+    written = {key: frozenset(_names(root, key)) for key in SECTIONS}
+    plant = replace(plant, **made, found=dict(_found(root, report)), written=written)
     plant = replace(plant, drives=dict(_mapped(plant, path, report)))
+    plant = replace(plant, lines={name: _spoken(each, plant) for name, each in plant.lines.items()})
     return plant if plant.hard_stops else replace(plant, hard_stops=_one_for_all(plant))
 
 
@@ -66,8 +69,25 @@ def _section(root: Entries, section: str, report: Report) -> Iterator[tuple[str,
         if not LABEL.fullmatch(name) and not key.refused:
             report.add(key.at, f"`{name}` is no name", "write up to 24 letters and digits, a letter first")
         made = build(EntryOf(SECTIONS[section]), value, report, name)
-        if isinstance(made, SECTIONS[section]):
+        if isinstance(made, Gathered):
+            made = replace(made, drives_at=_places(value))
+        if not isinstance(made, SECTIONS[section]):
+            report.partial = True
+        else:
             yield name, replace(made, name=name, name_at=key.at)
+
+
+def _names(root: Entries, section: str) -> Iterable[str]:
+    """The names of a section."""
+    _, node = root.entries.get(section, (None, None))
+    return node.entries if isinstance(node, Entries) and not is_found(node) else ()
+
+
+def _places(node: Node) -> dict[str, Place]:
+    """Where each drive of a list is named first."""
+    listed = node.entries["drives"][1] if isinstance(node, Entries) else None
+    items = listed.items if isinstance(listed, Items) else ()
+    return {each.text: each.at for each in reversed(items) if isinstance(each, Scalar)}
 
 
 def _found(root: Entries, report: Report) -> Iterator[tuple[str, Kept]]:
@@ -86,6 +106,7 @@ def _mapped(plant: Plant, path: Path, report: Report) -> Iterator[tuple[str, Mot
             values = _values(each, plant.found.get(name))
             yield name, replace(each, map=load_map(file), path=file, values=values)
         except MapError as error:
+            report.partial = True
             first = error.problems[0]
             report.add(
                 each.place("drive"),
@@ -93,6 +114,7 @@ def _mapped(plant: Plant, path: Path, report: Report) -> Iterator[tuple[str, Mot
                 "correct it; `driveblocks check` says all",
             )
         except Refused as refused:
+            report.partial = True
             report.add(each.place("drive"), *_halves(str(refused)))
 
 
@@ -108,6 +130,11 @@ def _values(motor: Motor, found: Kept | None) -> dict[str, Decimal]:
     watchdog = {"WatchdogMs": Decimal(motor.watchdog_ms)} if motor.watchdog_ms else {}
     given = motor.settings.given if motor.settings else {}
     return {name: each for name, each in {**kept, **watchdog, **given}.items() if each}
+
+
+def _spoken(line: Line, plant: Plant) -> Line:
+    drives = [each.map for each in plant.on(line.name)]
+    return replace(line, way=speech.way(line, drives))
 
 
 def _one_for_all(plant: Plant) -> dict[str, HardStop]:

@@ -6,6 +6,7 @@ from decimal import Decimal
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
+from driveblocks.desk.site.found import Way
 from driveblocks.desk.site.kept import LABEL, Kept, Ms
 from driveblocks.maps import model
 from driveblocks.maps.form import Form
@@ -56,6 +57,19 @@ class Called(Entry):
 
 
 @dataclass(frozen=True, kw_only=True)
+class Gathered(Called):
+    """Base of what names drives."""
+
+    drives: tuple[Label, ...] = fact("its drives, in their order", "[P1, P2, P3]")
+    drives_at: dict[str, Place] = field(default_factory=dict, compare=False, repr=False)
+    """Where each is named first."""
+
+    def drive_at(self, drive: str) -> Place:
+        """Where a drive is named."""
+        return self.drives_at.get(drive, self.place("drives"))
+
+
+@dataclass(frozen=True, kw_only=True)
 class Line(Called):
     """An RS-485 line."""
 
@@ -64,39 +78,8 @@ class Line(Called):
     form: CharacterForm | None = option("data bits, parity, stop bits; else likewise", '"8E1"')
     mode: Mode | None = option("framing; else rtu where all its drives have it", "rtu")
 
-
-@dataclass(frozen=True, kw_only=True)
-class Motor(Called):
-    """A drive with its motor."""
-
-    drive: Named = fact("family, model number, or map file beside this one", "chf")
-    line: Label = fact("its line", "A")
-    unit: Number = fact("its unit address", "1")
-    maximum_hz: Amount = fact("the highest speed that the machine takes, Hz", "50")
-    full_scale_hz: Amount | None = option("what 100 % is in the drive, Hz, where it has the pin `FullScaleHz`", "50")
-    stop_within_ms: Count = fact("its longest ramp and a margin, ms", "15000")
-    ramp_up_s: Amount | None = option("from standstill to full speed, s, for its keypad", "5")
-    ramp_down_s: Amount | None = option("from full speed to standstill, s, for its keypad", "5")
-    mode: Literal["full", "speed", "monitor"] = option(
-        "`full`: run over the line; `speed`: run by its terminals, speed over the line; `monitor`: only read",
-        "full",
-        default="full",
-    )
-    watchdog_ms: Count | None = option("time of the drive's own watchdog, ms; else it has none", "2000")
-    speed: Speed | None = option("an analog input, or Hz; else a tag of the panel", "Level")
-    settings: "Members | None" = option(
-        "members of `VFD_Settings`, before what commission found", "{ReferenceScale: 20.0}"
-    )
-    manual_checked: Count | None = option(
-        "number on the page of a second-hand map, once somebody has checked it with the manual", "12345"
-    )
-
-    map: model.Drive = field(default=None, compare=False, repr=False)  # type: ignore[assignment]  # set by `load`
-    """Its map; `load` refuses a plant with a drive that has none."""
-    path: Path = field(default=Path(), compare=False, repr=False)
-    """The file of its map."""
-    values: dict[str, Decimal] = field(default_factory=dict)
-    """Members of its `VFD_Settings` that are not 0: as given here, else as commission found; its watchdog, too."""
+    way: Way = field(default=Way(9600))
+    """How it is spoken on: as given, else as its drives are delivered."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -125,14 +108,47 @@ class Members(Entry):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Group(Called):
+class Motor(Called):
+    """A drive with its motor."""
+
+    drive: Named = fact("family, model number, or map file beside this one", "chf")
+    line: Label = fact("its line", "A")
+    unit: Number = fact("its unit address", "1")
+    maximum_hz: Amount = fact("the highest speed that the machine takes, Hz", "50")
+    full_scale_hz: Amount | None = option("what 100 % is in the drive, Hz, where it has the pin `FullScaleHz`", "50")
+    stop_within_ms: Count = fact("its longest ramp and a margin, ms", "15000")
+    ramp_up_s: Amount | None = option("from standstill to full speed, s, for its keypad", "5")
+    ramp_down_s: Amount | None = option("from full speed to standstill, s, for its keypad", "5")
+    mode: Literal["full", "speed", "monitor"] = option(
+        "`full`: run over the line; `speed`: run by its terminals, speed over the line; `monitor`: only read",
+        "full",
+        default="full",
+    )
+    watchdog_ms: Count | None = option("time of the drive's own watchdog, ms; else it has none", "2000")
+    speed: Speed | None = option("an analog input, or Hz; else a tag of the panel", "Level")
+    settings: Members | None = option(
+        "members of `VFD_Settings`, before what commission found", "{ReferenceScale: 20.0}"
+    )
+    manual_checked: Count | None = option(
+        "number on the page of a second-hand map, once somebody has checked it with the manual", "12345"
+    )
+
+    map: model.Drive = field(default=None, compare=False, repr=False)  # type: ignore[assignment]  # set by `load`
+    """Its map; `load` refuses a plant with a drive that has none."""
+    path: Path = field(default=Path(), compare=False, repr=False)
+    """The file of its map."""
+    values: dict[str, Decimal] = field(default_factory=dict)
+    """Members of its `VFD_Settings` that are not 0: as given here, else as commission found; its watchdog, too."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Group(Gathered):
     """Drives that are started and stopped as one; a stop stops all of it."""
 
     kind: Literal["together", "sequence", "duty_standby"] = fact(
         "`together`: all at once; `sequence`: one after the other; `duty_standby`: some run, others take their place",
         "sequence",
     )
-    drives: tuple[Label, ...] = fact("its drives, in their order", "[P1, P2, P3]")
     duty: Count | None = option("duty_standby: how many run at once; else 1", "1")
     delay_ms: Count | None = option("sequence: time between two starts, ms; else 1000", "2000")
     change: Literal["never", "starts", "hours"] | None = option(
@@ -192,10 +208,8 @@ class Lamp(Called):
 
 
 @dataclass(frozen=True, kw_only=True)
-class HardStop(Called):
-    """A contact in series with a hard stop."""
-
-    drives: tuple[Label, ...] = fact("the drives that it cuts", "[P1, P2]")
+class HardStop(Gathered):
+    """A contact in series with the hard stop of its drives."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -232,6 +246,8 @@ class Plant(Entry):
     meters: dict[str, Meter] = field(default_factory=dict)
     found: dict[str, Kept] = field(default_factory=dict)
     """What commission found, by tag."""
+    written: dict[str, frozenset[str]] = field(default_factory=dict, compare=False, repr=False)
+    """All names of each section, those of entries with mistakes, too."""
 
     @property
     def longest_scan_ms(self) -> int:

@@ -14,6 +14,7 @@ from driveblocks.desk.site.line import LEARNED_AFTER, PINS, SLOT, Line, Unit, nu
 from driveblocks.desk.words import time, wrong_speech
 from driveblocks.maps import catalog
 from driveblocks.maps.collection import Source
+from driveblocks.maps.model import Drive
 from driveblocks.maps.plan import writes_by
 from driveblocks.maps.problem import Refused
 from driveblocks.meaning.polls import Poll, polls
@@ -48,6 +49,37 @@ class Words:
     reply: str | None = None
     watchdog: str | None = None
     stop_within: str | None = None
+
+
+@dataclass(frozen=True)
+class Typed:
+    """A drive without a program: the name of its block, and what is set of its `VFD_Settings`."""
+
+    name: str
+    drive: Drive
+    unit: int
+    settings: Mapping[str, object]
+
+
+@dataclass(frozen=True)
+class Device:
+    """A meter or a sensor beside the drives: how many registers of it are read, and how often."""
+
+    unit: int
+    registers: int
+    every_ms: int = 0
+
+
+@dataclass(frozen=True, kw_only=True)
+class Sketch:
+    """A line without a program; `max_scan` in ms, 0: two scans."""
+
+    drives: Sequence[Typed]
+    devices: Sequence[Device]
+    rate: int
+    bits: int
+    ascii: bool = False
+    max_scan: int = 0
 
 
 def line(words: Words) -> Line:
@@ -115,35 +147,53 @@ def _program(words: Words, watchdog: int, wrong: list[str]) -> tuple[str, str, l
         drives = drives_of(asked, lambda each: source.meant(each, maps))
         if len(drives) + len(words.device) > MOST_UNITS:
             wrong.append(f"{len(drives) + len(words.device)} units; a line has 1 to {MOST_UNITS}")
-        return "line.st", _text(words, drives, watchdog), maps
+        return "line.st", program({"Bus": _sketch(words, drives, watchdog)}), maps
     except (Refused, files.BadFile) as error:
         wrong.append(str(error))
         return "", "", []
 
 
-def _text(words: Words, drives: list[Named], watchdog: int) -> str:
-    """A program with these drives and devices on one line."""
-    size = 8 if len(drives) + len(words.device) <= 8 else MOST_UNITS
+def _sketch(words: Words, drives: Sequence[Named], watchdog: int) -> Sketch:
+    """A line of drives and devices that are named; a device has the next free address."""
     taken = {each.unit for each in drives}
     free = (unit for unit in range(1, 248) if unit not in taken)
     rate, its = delivered(each.drive for each in drives)
-    declared, called = [], []
-    for at, each in enumerate(drives):
-        pins = f"Address := {each.unit}, MaximumHz := 50.0, StopWithinMs := 65534, Settings := Setting"
-        declared.append(f"  {each.drive.prefix}_{each.unit} : {each.drive.prefix}_Drive;\n")
-        called.append(f"  {each.drive.prefix}_{each.unit}({pins}, Slot := Slots[{at}]);\n")
-    for at, (count, unit) in enumerate(zip(words.device, free, strict=False), len(drives)):
-        declared.append(f"  Device_{unit} : MB_Device;\n")
-        called.append(
-            f"  Device_{unit}(Address := {unit}, Quantity := {count}, Slot := Slots[{at}], Words := Values);\n"
-        )
-    return (
-        f"PROGRAM TypedLine\nVAR\n  RxCount : UINT;\n  RxChars : MB_Adu;\n  TxChars : MB_LineFrame;\n"
-        f"  Values : MB_Words16;\n  Setting : VFD_Settings;\n  Slots : MB_Slots{size};\n  Bus : MB_ByteLine{size};\n"
-        f"{''.join(declared)}END_VAR\n  Setting.WatchdogMs := {watchdog};\n{''.join(called)}"
-        f"  Bus(BitRate := {rate}, CharacterBits := {its.bits},\n"
-        f"    RxCount := RxCount, RxChars := RxChars, TxChars := TxChars, Slots := Slots);\nEND_PROGRAM\n"
+    settings = {"WatchdogMs": watchdog}
+    typed = [Typed(f"{each.drive.prefix}_{each.unit}", each.drive, each.unit, settings) for each in drives]
+    devices = [Device(unit, count) for count, unit in zip(words.device, free, strict=False)]
+    return Sketch(drives=typed, devices=devices, rate=rate, bits=its.bits)
+
+
+def program(sketches: Mapping[str, Sketch]) -> str:
+    """A program with lines of these names, for their figures alone."""
+    declared, called = zip(*(_drawn(name, each) for name, each in sketches.items()), strict=True)
+    return f"PROGRAM TypedLine\nVAR\n{''.join(declared)}END_VAR\n{''.join(called)}END_PROGRAM\n"
+
+
+def _drawn(bus: str, one: Sketch) -> tuple[str, str]:
+    """What a line declares, and what it calls."""
+    size = 8 if len(one.drives) + len(one.devices) <= 8 else MOST_UNITS
+    parts = {
+        "": f"MB_ByteLine{size}", "_Slots": f"MB_Slots{size}", "_RxCount": "UINT", "_RxChars": "MB_Adu",
+        "_TxChars": "MB_LineFrame", "_Words": "MB_Words16",
+    }  # fmt: skip
+    declared, called = [f"  {bus}{part} : {kind};\n" for part, kind in parts.items()], list[str]()
+    for at, each in enumerate(one.drives):
+        pins = f"Address := {each.unit}, MaximumHz := 50.0, StopWithinMs := 65534, Settings := {each.name}_Setting"
+        declared.append(f"  {each.name} : {each.drive.prefix}_Drive;\n  {each.name}_Setting : VFD_Settings;\n")
+        called += [f"  {each.name}_Setting.{name} := {value};\n" for name, value in each.settings.items()]
+        called.append(f"  {each.name}({pins}, Slot := {bus}_Slots[{at}]);\n")
+    for at, device in enumerate(one.devices, len(one.drives)):
+        name = f"{bus}_Device_{device.unit}"
+        pins = f"Address := {device.unit}, Quantity := {device.registers}, EveryMs := {device.every_ms}"
+        declared.append(f"  {name} : MB_Device;\n")
+        called.append(f"  {name}({pins}, Slot := {bus}_Slots[{at}], Words := {bus}_Words);\n")
+    called.append(
+        f"  {bus}(BitRate := {one.rate}, CharacterBits := {one.bits}, Ascii := {str(one.ascii).upper()}, "
+        f"MaxScanMs := {one.max_scan},\n"
+        f"    RxCount := {bus}_RxCount, RxChars := {bus}_RxChars, TxChars := {bus}_TxChars, Slots := {bus}_Slots);\n"
     )
+    return "".join(declared), "".join(called)
 
 
 # ------------------------------------------------------------ what the program says of it
