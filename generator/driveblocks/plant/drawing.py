@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from driveblocks.docs.canvas import Canvas
 
-WIDTH, BOX, WIDE, HIGH, GAP, TOP = 380, 104, 264, 100, 22, 74
+WIDTH, BOX, WIDE, HIGH, GAP, TOP = 364, 90, 266, 100, 22, 74
 WIRES = (("+", 20, "go"), ("-", 38, "line"), ("C", 56, "dashed"))
 """Wire, where its trunk is, and how it is drawn; as in the picture of a line."""
 FIRST, STEP = 54, 17

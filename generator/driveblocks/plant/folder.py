@@ -14,10 +14,10 @@ from driveblocks.maps.model import Drive
 from driveblocks.maps.view import title
 from driveblocks.meaning.advice import advice
 from driveblocks.meaning.plug import plug
-from driveblocks.meaning.serial import Character, character, delivered
-from driveblocks.meaning.setting import Setting
-from driveblocks.plant import drawing, figures, paper, program
+from driveblocks.meaning.setting import Setting, in_order
+from driveblocks.plant import drawing, figures, paper
 from driveblocks.plant.model import Group, Line, Motor, Plant
+from driveblocks.plant.rules.memory import needed
 from driveblocks.render.environment import render
 from driveblocks.render.reasons import REASONS
 
@@ -44,19 +44,10 @@ class Row:
     drive: Drive | None = None
 
 
-@dataclass(frozen=True)
-class Speech:
-    """How a line is spoken on."""
-
-    rate: int
-    form: str
-
-
 def files(plant: Plant) -> dict[str, str]:
-    """Name -> text of each file of the folder. Raises Refused where the plant's program does not compile."""
-    text = program.text(plant)
-    found, used = figures.lines(plant, text), figures.memory(plant, text)
-    numbers = render("docs/Figures.md.j2", **_numbers(plant, found, used))
+    """Name -> text of each file of the folder. Raises Refused."""
+    found = figures.lines(plant)
+    numbers = render("docs/Figures.md.j2", **_numbers(plant, found))
     pictures = dict(_pictures(plant))
     page = render("docs/Electrician.md.j2", **_electrician(plant), figures=_without_head(numbers))
     return {
@@ -72,18 +63,23 @@ def _without_head(text: str) -> str:
     return re.sub("(?m)^## ", "### ", text.partition("\n")[2].strip())
 
 
-def _numbers(plant: Plant, found: Mapping[str, Figures], used: figures.Memory) -> dict[str, Any]:
-    return {"plant": plant, "found": found, "memory": used, "cuts": list(figures.cuts(plant, found))}
+def _numbers(plant: Plant, found: Mapping[str, Figures]) -> dict[str, Any]:
+    return {
+        "plant": plant,
+        "found": found,
+        "memory": [round(each / 1000) for each in needed(plant, [each.line for each in found.values()])],
+        "cuts": list(figures.cuts(plant, found)),
+    }
 
 
 def _electrician(plant: Plant) -> dict[str, Any]:
     maps = {each.map.prefix: each.map for each in plant.drives.values()}
     return {
         "plant": plant,
-        "lines": [(line, speech(plant, line), list(units(plant, line))) for line in plant.lines.values()],
+        "lines": [(line, list(units(plant, line))) for line in plant.lines.values()],
         "plug": plug,
         "title": title,
-        "sheets": [(each, speech(plant, plant.lines[each.line]), settings(plant, each)) for each in drives(plant)],
+        "sheets": [(each, plant.lines[each.line].way, settings(plant, each)) for each in drives(plant)],
         "never": figures.never,
         "families": [(title(one), [_advised(each) for each in advice(one)]) for one in maps.values()],
         "reasons": [(each.code, each.en, ASIDE.sub(r"\1", each.remedy)) for each in REASONS],
@@ -102,13 +98,6 @@ def drives(plant: Plant) -> Iterator[Motor]:
 # ------------------------------------------------------------ lines
 
 
-def speech(plant: Plant, line: Line) -> Speech:
-    """Rate and format of a line: its own, else what its drives have as delivered."""
-    rate, its = delivered(each.map for each in plant.on(line.name))
-    form = line.form or (its if plant.on(line.name) else Character()).form
-    return Speech(line.rate or rate, character(form).form)
-
-
 def units(plant: Plant, line: Line) -> Iterator[Row]:
     """What is on a line, from its first end to its last: the PLC, the drives, the meters."""
     yield Row("PLC", f"port {line.port}", "its port", None)
@@ -120,7 +109,8 @@ def units(plant: Plant, line: Line) -> Iterator[Row]:
 
 def _pictures(plant: Plant) -> Iterator[tuple[str, str]]:
     for line in plant.lines.values():
-        yield f"line_{line.name}.svg", drawing.picture(f"Line {line.name}", [_drawn(each) for each in units(plant, line)])
+        drawn = [_drawn(each) for each in units(plant, line)]
+        yield f"line_{line.name}.svg", drawing.picture(f"Line {line.name}", drawn)
     yield "hard_stop.svg", chain.picture("the contact of a hard stop")
     yield "sto.svg", sto.picture()
 
@@ -139,16 +129,16 @@ def _drawn(row: Row) -> drawing.Unit:
 
 def settings(plant: Plant, motor: Motor) -> dict[str, list[keypad.Row]]:
     """Title of a group -> the settings of one drive, filled in. Raises ValueError where the drive cannot be so."""
-    line = speech(plant, plant.lines[motor.line])
+    way = plant.lines[motor.line].way
     silence = motor.values.get("WatchdogMs")
-    wanted = keypad.wanted(motor.map, motor.unit, line.rate, line.form, silence / 1000 if silence else None)
+    wanted = keypad.wanted(motor.map, motor.unit, way.rate, way.form, silence / 1000 if silence else None)
     found = keypad.rows(motor.map, wanted)
     ramps = {id_: f"**{seconds:g} s**" for id_, seconds in _ramps(motor)}
     return {name: [_filled(motor, each, ramps) for each in rows] for name, rows in found.items()}
 
 
 def _ramps(motor: Motor) -> Iterator[tuple[str, float]]:
-    own = [each for each in keypad.in_order(motor.map) if each.adjusted and each.keypad.unit == "s"]
+    own = [each for each in in_order(motor.map) if each.adjusted and each.keypad.unit == "s"]
     for begins, key in RAMPS:
         first = next((each for each in own if each.name.lower().startswith(begins)), None)
         seconds = getattr(motor, key)
@@ -205,9 +195,12 @@ def _stops(plant: Plant) -> Iterator[tuple[str, str, str]]:
         elif button.does == "stop_all":
             yield button.title, ", ".join(plant.drives), "over the lines, one after the other; it may fail"
     for contact in plant.hard_stops.values():
-        yield f"hard stop {contact.title}", ", ".join(contact.drives), "power or STO, by wire: the one that always stops"
-        late = "opens the same circuit where a stop is overdue; `Reset` closes it again"
-        yield f"contact of {contact.title} (PLC)", ", ".join(contact.drives), late
+        named, late = (
+            ", ".join(contact.drives),
+            "opens the same circuit where a stop is overdue; a reset closes it again",
+        )
+        yield f"hard stop {contact.title}", named, "power or STO, by wire: the one that always stops"
+        yield f"contact of {contact.title} (PLC)", named, late
     for each in plant.drives.values():
         says = figures.by_itself(each)
         yield f"watchdog of {each.name}", each.name if says else "nobody", says or "not set, or nothing is known of it"

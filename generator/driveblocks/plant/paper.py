@@ -2,7 +2,7 @@
 
 import html
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 
 from driveblocks.docs.canvas import STYLE
 
@@ -23,7 +23,8 @@ overflow-wrap:anywhere}
 h1,h2,h3{line-height:1.2;break-after:avoid}h2{margin-top:2em;border-bottom:2px solid #111}
 blockquote{margin:1em 0;padding:.5em 1em;border:2px solid #cf222e;break-inside:avoid}
 table{border-collapse:collapse;width:100%;margin:.8em 0;font-size:13px}
-th,td{border:1px solid #777;padding:.3em .5em;text-align:left;vertical-align:top}th{background:#eee}
+th,td{border:1px solid #777;padding:.3em .5em;text-align:left;vertical-align:top;
+overflow-wrap:break-word}th{background:#eee}
 tr{break-inside:avoid}code{font-size:90%;background:#f2f2f2;padding:0 .2em}
 ul{padding-left:1.3em}ul.ticks{list-style:none;padding-left:0}ul.ticks li{margin:.35em 0 .35em 1.9em}
 ul.ticks .tick{margin-left:-1.9em;margin-right:.7em}
@@ -31,9 +32,11 @@ ul.ticks .tick{margin-left:-1.9em;margin-right:.7em}
 figure{margin:1em 0;break-inside:avoid}svg{max-width:100%;height:auto}
 @media screen and (max-width:600px){body{padding:.6em}thead{display:none}
 table,tbody,tr,td{display:block;width:auto}tr{border:1px solid #777;margin:.6em 0;padding:.2em .4em}
-td{border:0;padding:.15em 0}td:empty{display:none}td[data-head]:before{content:attr(data-head) ": ";color:#555}}
+td{border:0;padding:.15em 0}td:empty{display:none}td[data-head]:before{content:attr(data-head) ": ";color:#555}
+figure{overflow-x:auto}svg{max-width:none}}
 @page{size:A4;margin:14mm}
-@media print{body{font-size:10pt;max-width:none;padding:0}table{font-size:8.5pt}h2.own{break-before:page}
+@media print{body{font-size:10pt;max-width:none;padding:0}table{font-size:8.5pt}h2.own:not(:first-of-type){break-before:page}
+th,td{padding:.15em .4em}
 th,.tick{print-color-adjust:exact}a{color:inherit;text-decoration:none}}"""
 
 
@@ -69,7 +72,7 @@ def _kind(line: str) -> str:
     return next((kind for start, kind in starts if line.startswith(start)), "text" if line.strip() else "nothing")
 
 
-def _head(lines: list[str], _: Mapping[str, str]) -> Iterator[str]:
+def _head(lines: list[str], __: Mapping[str, str]) -> Iterator[str]:
     marks, _, words = lines[0].partition(" ")
     level = len(marks)
     own = ' class="own"' if level == 2 else ""
@@ -86,12 +89,15 @@ def _picture(lines: list[str], pictures: Mapping[str, str]) -> Iterator[str]:
     yield f"<figure>{re.sub('<style>.*?</style>', '', svg, flags=re.DOTALL)}</figure>"
 
 
-def _table(lines: list[str], _: Mapping[str, str]) -> Iterator[str]:
+def _table(lines: list[str], __: Mapping[str, str]) -> Iterator[str]:
     heads, _, *rows = [[cell.strip() for cell in _CELLS.split(line.strip()[1:-1])] for line in lines]
     head = "".join(f"<th>{_inline(each)}</th>" for each in heads)
     yield f"<table><thead><tr>{head}</tr></thead><tbody>"
     for row in rows:
-        yield f"<tr>{''.join(_cell(*each) for each in zip(heads, row, strict=True))}</tr>"
+        said = [each for each in row if each]
+        wide = len(said) == 1 < len(heads)  # a title between rows
+        cells = f'<td colspan="{len(heads)}">{_inline(said[0])}</td>' if wide else "".join(map(_cell, heads, row))
+        yield f"<tr>{cells}</tr>"
     yield "</tbody></table>"
 
 
@@ -102,7 +108,7 @@ def _cell(head: str, text: str) -> str:
 
 def _ticks(lines: list[str], _: Mapping[str, str]) -> Iterator[str]:
     yield '<ul class="ticks">'
-    yield from (f"<li>{_inline(each[2:])}</li>" for each in lines)
+    yield from (f"<li>{CHECK}{_inline(each.removeprefix(f'- {_BOX} '))}</li>" for each in lines)
     yield "</ul>"
 
 
@@ -120,11 +126,11 @@ def _text(lines: list[str], _: Mapping[str, str]) -> Iterator[str]:
     yield f"<p>{_inline(' '.join(lines))}</p>"
 
 
-def _nothing(*_: object) -> Iterator[str]:
+def _nothing(_: list[str], __: Mapping[str, str]) -> Iterator[str]:
     return iter(())
 
 
-_MADE = {
+_MADE: dict[str, Callable[[list[str], Mapping[str, str]], Iterator[str]]] = {
     "head": _head, "quote": _quote, "table": _table, "ticks": _ticks, "list": _list, "picture": _picture,
     "text": _text, "nothing": _nothing,
 }  # fmt: skip

@@ -3,7 +3,7 @@
 from collections.abc import Iterable
 
 from driveblocks.render.library import CHINESE, FRAMES, LINE2, LINE32, METER, PARAMETERS, PLANT
-from structured_text.language.tree import Block, FunctionBlock, Program, VarKind
+from structured_text.language.tree import Block, FunctionBlock, VarKind
 from structured_text.language.types import UNKNOWN, Type
 
 CODE_KIB = {"": 111, LINE2: 15, LINE32: 15, PARAMETERS: 11, METER: 4, PLANT: 5, FRAMES: 12, CHINESE: 18}
@@ -17,7 +17,7 @@ CPU_KB = {"S7-1211C": 50, "S7-1212C": 75, "S7-1214C": 100, "S7-1215C": 125, "S7-
 """Work memory of controllers in which all that is loaded counts, called or not; their firmware from 4.0 on."""
 
 
-def data(block: FunctionBlock | Program) -> int:
+def data(block: FunctionBlock) -> int:
     """Bytes of one instance and, once, of what its in-outs refer to: the sum of the widths, a BOOL counts 1."""
     return kept(block.type or UNKNOWN) + sum(
         one.type.size for one in block.symbols.values() if one.kind is VarKind.IN_OUT
