@@ -1,0 +1,245 @@
+"""A plant on a test stand: its very program, scanned in virtual time, at simulated drives of its addresses.
+
+What is around the PLC is there, too: buttons, analog inputs, the circuits of the hard stops with their contacts, and
+what they cut, as a safe torque off does.
+"""
+
+import copy
+from collections import deque
+from collections.abc import Callable, Iterable, Iterator
+from decimal import Decimal
+
+from driveblocks.bench.simulator.drive import SimulatedDrive
+from driveblocks.bench.simulator.habits import Habits
+from driveblocks.desk.clock import VirtualClock
+from driveblocks.desk.port import WirePort
+from driveblocks.desk.run import wiring
+from driveblocks.desk.run.controller import Controller
+from driveblocks.desk.run.drives import COUNTS_PER_HERTZ, PER_COUNT, REFERENCE, open_scales
+from driveblocks.desk.run.source import Loaded
+from driveblocks.meaning.watchdog import watchdog
+from driveblocks.plant.model import Motor, Plant
+from driveblocks.plant.program import commanded
+from driveblocks.plant.wire import Wire
+from driveblocks.render.reasons import REASONS
+from structured_text.engines.engine import Value
+
+USUAL_RAMP_S = 5
+PUSH_MS = 500
+"""How long a button is pressed."""
+PANEL_MS = 2_000
+"""Between two questions of a panel."""
+SHARE = Decimal("0.8")
+"""Of full speed, what an input or a panel asks for."""
+SECOND_MS, SECONDS = 1000, 10
+"""How often it is written down what the drives do, and how much of that is kept."""
+LOSSES = {"trips": "trip", "stop": "stop", "quick_stop": "stop", "coast_stop": "coast"}
+_WHY = {each.code: each for each in REASONS}
+_COUNTED = ("RunS", "Starts")
+"""What is kept over a restart."""
+
+
+class Broken(Exception):  # noqa: N818 - the plant is at fault, not this program
+    """A rule does not hold: what was expected, and what was so instead."""
+
+    def __init__(self, expected: str, actual: str) -> None:
+        self.expected, self.actual = expected, actual
+        super().__init__(f"{expected}: {actual}")
+
+
+class Stand:
+    """A plant under test, from power-up on."""
+
+    def __init__(self, plant: Plant, loaded: Loaded) -> None:
+        """Wire it. `loaded` is its program. Raises BuildError."""
+        self.plant, self._loaded = plant, loaded
+        self.clock = VirtualClock()
+        self.drives = {each.name: _simulated(plant, each) for each in plant.drives.values()}
+        self.wires = {name: self._wire(name) for name in plant.lines}
+        self.open: set[str] = set()
+        """Hard stops that somebody has opened."""
+        self.may: set[str] = set()
+        """Drives that may start: somebody has asked for it."""
+        self.panel = ""
+        """The line on which a panel asks, now and then."""
+        self.seconds: deque[str] = deque(maxlen=SECONDS)
+        self._turned: set[str] = set()
+        self._overdue: set[str] = set()
+        self._pins: dict[str, Value] = dict(self._at_rest())
+        self.controller = self._made()
+
+    def _made(self) -> Controller:
+        """The PLC as it is switched on."""
+        loaded = self._loaded
+        wired = wiring.find(loaded.program, set(loaded.drives))
+        made = Controller(
+            loaded.library, loaded.program.name, wired, loaded.drives, self.plant.scan_ms * 1000
+        )
+        ports = {name.upper(): WirePort(wire, self.clock) for name, wire in self.wires.items()}
+        first, *others = (ports[each.wiring.line.upper()] for each in made.lines)
+        made.connect(first, None, *others)
+        for name, value in self._pins.items():
+            made.instance[name] = value
+        return made
+
+    def _wire(self, name: str) -> Wire:
+        drives = [self.drives[each.name] for each in self.plant.on(name)]
+        return Wire(self.plant.lines[name], drives, [each.unit for each in self.plant.meters_on(name)])
+
+    def _at_rest(self) -> Iterator[tuple[str, Value]]:
+        """What stands at the inputs while nobody touches anything."""
+        for button in self.plant.buttons.values():
+            yield button.name, button.does in ("stop", "stop_all")
+        for each in self.plant.inputs.values():
+            yield each.name, int(each.raw[0] + SHARE * (each.raw[1] - each.raw[0]))
+        for motor in self.plant.drives.values():
+            if motor.speed is None and motor.mode != "monitor":
+                yield f"{motor.name}_Hertz", float(SHARE * motor.maximum_hz)
+
+    def copied(self) -> "Stand":
+        """Another stand in the same state, which goes its own way from here."""
+        shared = (self.plant, self._loaded, *self._loaded.drives.values(), self._loaded.library)
+        own = (part for each in self.drives.values() for part in (each.table, each.habits))
+        return copy.deepcopy(self, {id(each): each for each in (*shared, *own)})
+
+    # ------------------------------------------------------------ time
+
+    @property
+    def ms(self) -> int:
+        return self.clock.now_us() // 1000
+
+    def scan(self) -> None:
+        """One scan, and what is around it. Raises ScanError, Broken."""
+        self.clock.sleep_until(self.clock.now_us() + 1000 * self.plant.scan_ms)
+        now = self.clock.now_us()
+        if self.panel and self.ms % PANEL_MS < self.plant.scan_ms:
+            motor = self.plant.on(self.panel)[0]
+            self.wires[self.panel].ask(motor.unit, motor.map, now)
+        self.controller.scan(now)
+        self._close()
+        if self.ms % SECOND_MS < self.plant.scan_ms:
+            self.seconds.append(self._row())
+        self._judge()
+
+    def _close(self) -> None:
+        """The circuits of the hard stops: each is closed by its contact, unless somebody has opened it."""
+        for stop in self.plant.hard_stops.values():
+            closed = bool(self.pin(f"{stop.name}_Ok")) and stop.name not in self.open
+            self.set(f"{stop.name}_Closed", closed)
+            for each in stop.drives:
+                if self.drives[each].inhibited == closed:
+                    self.drives[each].inhibit(on=not closed)
+
+    def _judge(self) -> None:
+        """What always has to hold. Raises Broken."""
+        for name, drive in self.drives.items():
+            turns = drive.motor.driven
+            if turns and name not in self._turned and name not in self.may:
+                raise Broken("nothing starts without a rising edge of its start", f"{name} starts; {self.state(name)}")
+            if drive.motor.output and self.pin(f"{name}.StopConfirmed"):
+                raise Broken("StopConfirmed only at standstill", f"{name} shows it at {drive.hertz:.1f} Hz")
+        self._turned = {name for name, drive in self.drives.items() if drive.motor.driven}
+        overdue = {name for name in self.drives if self.pin(f"{name}.StopOverdue")}
+        for stop in self.plant.hard_stops.values():
+            late = overdue & self._overdue & set(stop.drives)
+            if late and self.pin(f"{stop.name}_Ok"):
+                raise Broken(f"the contact of {stop.name} is open while a stop is overdue", f"closed; overdue: {', '.join(sorted(late))}")
+        self._overdue = overdue
+
+    def wait(self, ms: int) -> None:
+        """Let time pass."""
+        for _ in range(max(1, ms // self.plant.scan_ms)):
+            self.scan()
+
+    def until(self, holds: Callable[[], bool], within_ms: int, expected: str, actual: Callable[[], str]) -> None:
+        """Scan until something holds. Raises Broken where it does not within its time."""
+        end = self.ms + within_ms
+        while not holds():
+            if self.ms >= end:
+                raise Broken(f"{expected} within {within_ms / 1000:g} s", actual())
+            self.scan()
+
+    # ------------------------------------------------------------ hands
+
+    def pin(self, name: str) -> Value:
+        return self.controller.instance[name]
+
+    def set(self, name: str, value: Value) -> None:
+        """Set an input; it stays so over a restart of the PLC."""
+        self._pins[name] = self.controller.instance[name] = value
+
+    def push(self, name: str, ms: int = PUSH_MS) -> None:
+        """Press a button, and release it."""
+        rest = bool(self._pins.get(name, False))
+        self.set(name, not rest)
+        self.wait(ms)
+        self.set(name, rest)
+
+    def restart(self) -> None:
+        """Switch the PLC off and on: what is retentive stays, and the inputs are as they are."""
+        before = self.controller.instance
+        kept = {path: before[path] for each in self.drives for path in (f"{each}_Counted.{one}" for one in _COUNTED)}
+        self.controller = self._made()
+        for path, value in kept.items():
+            self.controller.instance[path] = value
+        self._overdue.clear()
+
+    # ------------------------------------------------------------ eyes
+
+    def asked(self, name: str) -> float:
+        """The speed that is asked of a drive, Hz."""
+        motor = self.plant.drives[name]
+        if isinstance(motor.speed, Decimal):
+            return float(min(motor.speed, motor.maximum_hz))
+        if motor.speed is None:
+            return float(SHARE * motor.maximum_hz)
+        low, high = self.plant.inputs[motor.speed].range
+        return float(min(low + SHARE * (high - low), motor.maximum_hz))
+
+    def state(self, name: str) -> str:
+        """What a drive does, and why by its block."""
+        reason, code = self.pin(f"{name}.Reason"), self.pin(f"{name}.FaultCode")
+        said = _WHY.get(reason) if isinstance(reason, int) else None
+        why = f"Reason {reason}: {said.en}; {said.remedy}" if said else f"Reason {reason}"
+        fault = f", fault {code}" if self.pin(f"{name}.Fault") else ""
+        return f"{name} is at {self.drives[name].hertz:.1f} Hz{fault}; {why}"
+
+    def states(self, names: Iterable[str]) -> str:
+        """The same of several."""
+        return "; ".join(map(self.state, names))
+
+    def _row(self) -> str:
+        """What all drives do at this second."""
+        cells = (f"{name} {drive.hertz:.1f} Hz, {drive.mode}, {self.pin(f'{name}.Reason')}" for name, drive in self.drives.items())
+        contacts = (f"{each} {'closed' if self.pin(f'{each}_Ok') else 'open'}" for each in self.plant.hard_stops)
+        return f"{self.ms / 1000:7.1f} s  {'; '.join((*cells, *contacts))}"
+
+    def members(self, target: str) -> list[str]:
+        """The drives that a command is for."""
+        return [each.name for each in self.plant.members(target)]
+
+    @property
+    def targets(self) -> list[str]:
+        """What has a command of its own."""
+        return [*commanded(self.plant)]
+
+
+def _simulated(plant: Plant, motor: Motor) -> SimulatedDrive:
+    """A drive as its keypad is set: by the plant file; a scale that nobody gives is the usual one."""
+    ramps = [float(motor.maximum_hz) / float(each or min(USUAL_RAMP_S, motor.stop_within_ms / 2000)) for each in (motor.ramp_up_s, motor.ramp_down_s)]
+    up, down = (max(1, round(each)) for each in ramps)
+    does = next((LOSSES[what] for _, what in own.reactions if what in LOSSES), "trip") if (own := watchdog(motor.map)) else "trip"
+    code = next((each.code for each in motor.map.faults.codes if each.code), 1)
+    silence = motor.values.get("WatchdogMs")
+    habits = Habits(
+        maximum_hz=int(max(motor.maximum_hz, motor.full_scale_hz or 0).to_integral_value("ROUND_CEILING")),
+        ramp=up, stop_ramp=down, scales=dict(_scales(motor)),
+        watchdog_ms=int(silence) if own and silence else None, watchdog=does, watchdog_code=code,
+    )  # fmt: skip
+    return SimulatedDrive(motor.map, motor.unit, habits, ascii_mode=plant.lines[motor.line].way.mode == "ascii")
+
+
+def _scales(motor: Motor) -> Iterator[tuple[int, Decimal]]:
+    for name, register in open_scales(motor.map).items():
+        value = motor.values.get(name) or Decimal(COUNTS_PER_HERTZ if name == REFERENCE else PER_COUNT)
+        yield register, 1 / value if name == REFERENCE else value
