@@ -3,12 +3,12 @@
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from driveblocks.desk.site.line import Figures, figures
+from driveblocks.desk.site.line import Figures, Line, figures
 from driveblocks.maps.collection import clashes
 from driveblocks.maps.problem import Problem, Report
 from driveblocks.plant import load
 from driveblocks.plant.line import lines, sources
-from driveblocks.plant.model import Plant
+from driveblocks.plant.model import SECTIONS, Plant
 from driveblocks.plant.rules import drive, line, memory, name, reference
 from structured_text.visible import file_name
 
@@ -20,6 +20,12 @@ class Judged:
     plant: Plant
     figures: dict[str, Figures] = field(repr=False)
     warnings: tuple[Problem, ...] = ()
+
+    @property
+    def held(self) -> str:
+        """What it holds, for a person: 2 lines, 6 drives."""
+        counts = {key.replace("_", " "): len(getattr(self.plant, key)) for key in SECTIONS}
+        return ", ".join(f"{n} {key.removesuffix('s') if n == 1 else key}" for key, n in counts.items() if n)
 
 
 def good(path: Path) -> Plant:
@@ -36,7 +42,7 @@ def judged(path: Path) -> Judged:
         _clash(plant, report)
         line.check(plant, report)
         drive.check(plant, report)
-        if not report.problems:
+        if not report.problems and _whole(plant):
             found = _figures(plant, report, warnings)
         name.check(plant, report)
         reference.check(plant, report)
@@ -45,6 +51,32 @@ def judged(path: Path) -> Judged:
     report.raise_if_any()
     assert plant is not None  # noqa: S101 - else something was noted
     return Judged(plant, found, tuple(sorted(set(warnings.problems))))
+
+
+def spoken(path: Path) -> tuple[Plant, dict[str, Line]]:
+    """A plant and its lines, whatever is wrong with what their figures do not need. Raises MapError with the rest."""
+    report = Report(file_name(path))
+    plant = load.read(path, report)
+    if plant is not None:
+        _clash(plant, report)
+        line.check(plant, report)
+        drive.check(plant, report)
+        if not _whole(plant):
+            report.miss(plant.at, "a drive or a meter has no line", "run `driveblocks check`, which says all")
+    report.raise_if_any()
+    assert plant is not None  # noqa: S101 - else something was noted
+    return plant, _lines(plant)
+
+
+def _whole(plant: Plant) -> bool:
+    """Whether there is a line for each unit, and a drive at all."""
+    named = {each.line for each in plant.drives.values()}
+    return bool(named) and named | {each.line for each in plant.meters.values()} <= plant.lines.keys()
+
+
+def _lines(plant: Plant) -> dict[str, Line]:
+    """The lines that have drives."""
+    return lines(plant, [each for each in plant.lines if plant.on(each)])
 
 
 def _clash(plant: Plant, report: Report) -> None:
@@ -57,7 +89,7 @@ def _clash(plant: Plant, report: Report) -> None:
 
 def _figures(plant: Plant, report: Report, warnings: Report) -> dict[str, Figures]:
     """The figures of the lines that have drives; what does not hold is noted."""
-    made = lines(plant, [each for each in plant.lines if plant.on(each)])
+    made = _lines(plant)
     found = {each: figures(one, one.rate) for each, one in made.items()}
     for each, own in found.items():
         line.hold(plant, own, report)

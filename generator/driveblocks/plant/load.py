@@ -6,10 +6,10 @@ from decimal import Decimal
 from pathlib import Path
 from typing import Any
 
-from driveblocks.desk.site.kept import LABEL, Kept, is_found
+from driveblocks.desk.site.kept import LABEL, PLANT, Kept, is_found
 from driveblocks.desk.site.sheet import members
 from driveblocks.maps import catalog, nodes, source
-from driveblocks.maps.decode import build
+from driveblocks.maps.decode import build, nearest
 from driveblocks.maps.load import load as load_map
 from driveblocks.maps.nodes import Entries, Items, Node, Scalar
 from driveblocks.maps.problem import MapError, Place, Refused, Report
@@ -39,15 +39,30 @@ def read(path: Path, report: Report) -> Plant | None:
         report.add(root.at, "this is no plant", "write `plant: NAME`, `lines:` and `drives:`")
         return None
     own = {key: each for key, each in root.entries.items() if key not in SECTIONS and not _is_label(key, each[1])}
+    meant = _unknown(own, report)
     plant = build(EntryOf(Plant), Entries(own, root.at), report, "the plant")
     if not isinstance(plant, Plant):
         return None
     made: dict[str, Any] = {key: dict(_section(root, key, report)) for key in SECTIONS}
-    written = {key: frozenset(_names(root, key)) for key in SECTIONS}
+    written = {key: frozenset(_names(root, meant.get(key, key))) for key in SECTIONS}
     plant = replace(plant, **made, found=dict(_found(root, report)), written=written)
     plant = replace(plant, drives=dict(_mapped(plant, path, report)))
     plant = replace(plant, lines={name: _spoken(each, plant) for name, each in plant.lines.items()})
     return plant if plant.hard_stops else replace(plant, hard_stops=_one_for_all(plant))
+
+
+def _unknown(own: dict[str, tuple[Scalar, Node]], report: Report) -> dict[str, str]:
+    """Note and take out the keys that a plant has not; sections that were probably meant, as they are written."""
+    meant: dict[str, str] = {}
+    for text in own.keys() - set(PLANT):
+        key, _ = own.pop(text)
+        near = nearest(text, list(PLANT))
+        right = f"did you mean `{near}`?" if near else f"known keys: {', '.join(PLANT)}"
+        if not key.refused:
+            report.add(key.at, f"unknown key `{text[:40]}` in the plant", right)
+        report.partial = True
+        meant[near or ""] = text
+    return meant
 
 
 def _is_label(key: str, node: Node) -> bool:

@@ -10,7 +10,7 @@ from driveblocks.desk.site.found import Way
 from driveblocks.desk.site.kept import LABEL, Kept, Ms
 from driveblocks.maps import model
 from driveblocks.maps.form import Form
-from driveblocks.maps.model import Count, Entry, Factor, Language, Number, Str, fact, option
+from driveblocks.maps.model import Count, Entry, Factor, Number, Str, fact, option
 from driveblocks.maps.problem import Place
 from driveblocks.modbus.frame import Mode
 
@@ -152,8 +152,8 @@ class Group(Gathered):
     duty: Count | None = option("duty_standby: how many run at once; else 1", "1")
     delay_ms: Count | None = option("sequence: time between two starts, ms; else 1000", "2000")
     change: Literal["never", "starts", "hours"] | None = option(
-        "duty_standby: who is first at the next start: always the first of the list, the next one in turn, or the one "
-        "with the fewest hours; else never",
+        "duty_standby: who is first at a start: always the first of the list, the one with the fewest starts, or with "
+        "the fewest hours; else never",
         "starts",
     )
 
@@ -232,8 +232,8 @@ class Plant(Entry):
     plant: Str = fact("its name; the program is called after it", "Pumping station")
     scan_ms: Count = option("time between two scans, ms", "10", default=10)
     max_scan_ms: Count | None = option("the longest, ms; else twice `scan_ms`", "20")
-    cpu: Str | None = option("a controller of docs/memory.md, so that its memory is judged", "S7-1214C")
-    language: Language | None = option("a second language of alarms, beside English", "zh")
+    cpu: Str | None = option("a controller of docs/memory.md, so that its memory is judged", "S7-1217C")
+    language: Literal["en", "zh"] | None = option("a second language of alarms, beside English", "zh")
 
     lines: dict[str, Line] = field(default_factory=dict)
     drives: dict[str, Motor] = field(default_factory=dict)

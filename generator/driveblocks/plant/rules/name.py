@@ -1,14 +1,16 @@
 """Rules on names: each becomes a variable of the program, in every programming system."""
 
+from driveblocks.desk.site.kept import LABEL
 from driveblocks.maps import names
 from driveblocks.maps.problem import Report
 from driveblocks.plant.model import SECTIONS, Called, Plant, identifier
 from structured_text.language.names import kept
 from structured_text.language.reserved import TARGET_WORDS
 
-LONGEST = 24
-OWN = ("FirstScan", "Restart", "ElapsedMs", "StopAll", "Bus", "Slots", "HardStopOk")
-"""What a program has without being asked, whatever its drives are called."""
+LONGEST, LONGEST_PROGRAM = 22, 24
+"""Letters and digits: the program adds up to nine, as in P1_Settings."""
+OWN = ("FirstScan", "ElapsedMs", "All", "Hmi")
+"""Names that every program has, and what some of them begin with."""
 
 
 def check(plant: Plant, report: Report) -> None:
@@ -29,8 +31,12 @@ def check(plant: Plant, report: Report) -> None:
 
 def _wrong(name: str) -> str:
     """Why a variable of a program cannot have a name; empty: it can."""
+    if not LABEL.fullmatch(name):
+        return ""  # said where it was read
     if why := names.wrong_pin(name):
         return why
+    if len(name) > LONGEST:
+        return f"has {len(name)} letters and digits, and {LONGEST} are possible"
     if kept(name, TARGET_WORDS):
         return "is a word of a programming system"
     return "is a variable of every program" if name.upper() in {each.upper() for each in OWN} else ""
@@ -41,9 +47,9 @@ def _program(plant: Plant, report: Report) -> None:
     if not made[:1].isalpha():
         wrong = f"`plant: {plant.plant}` gives no name of a program: `{made}` does not begin with a letter"
         report.add(place, wrong, "begin it with a letter A to Z")
-    elif len(made) > LONGEST:
+    elif len(made) > LONGEST_PROGRAM:
         wrong = f"the program would be called {made}, {len(made)} letters and digits"
-        report.add(place, wrong, f"write a name with at most {LONGEST}")
+        report.add(place, wrong, f"write a name with at most {LONGEST_PROGRAM}")
     elif why := names.wrong_block(made) or (kept(made, TARGET_WORDS) and "is a word of a programming system"):
         report.add(place, f"the program would be called {made}, which {why}", "choose another name")
     elif made.upper() in {name.upper() for section in SECTIONS for name in getattr(plant, section)}:

@@ -6,8 +6,10 @@ from driveblocks.maps.decode import nearest
 from driveblocks.maps.problem import Place, Report
 from driveblocks.plant.model import DOES, SHOWS, Button, Gathered, Group, Lamp, Plant
 
-MOST_COUNTS = 32767
-"""Counts of an analog input, either way: an INT of the PLC."""
+COUNTS = range(-32768, 32768)
+"""Of an analog input: an INT of the PLC."""
+MOST_MEMBERS = 16
+"""Drives of a group: those that VFD_Members holds."""
 
 
 def check(plant: Plant, report: Report) -> None:
@@ -58,12 +60,14 @@ def _inputs(plant: Plant, report: Report) -> None:
         for key, pair in (("raw", each.raw), ("range", each.range)):
             if len(pair) != 2:
                 report.add(each.place(key), f"`{key}` of {name} has {len(pair)} numbers", "write both ends, [0, 50]")
-            elif pair[0] >= pair[1]:
-                wrong = f"`{key}` of {name} is empty: {pair[1]} is not above {pair[0]}"
-                report.add(each.place(key), wrong, "write the low end first")
-        if any(not -MOST_COUNTS <= count <= MOST_COUNTS for count in each.raw):
+            elif pair[0] == pair[1]:
+                report.add(each.place(key), f"`{key}` of {name} is empty: both ends are {pair[0]}", "write two numbers")
+        if len(each.range) == 2 and each.range[0] > each.range[1]:
+            wrong = f"`range` of {name} begins with its high end"
+            report.add(each.place("range"), wrong, "write the low end first, and turn `raw` round, too")
+        if any(count not in COUNTS for count in each.raw):
             wrong = f"`raw` of {name} does not fit an INT"
-            report.add(each.place("raw"), wrong, f"write -{MOST_COUNTS} to {MOST_COUNTS}")
+            report.add(each.place("raw"), wrong, f"write {COUNTS[0]} to {COUNTS[-1]}")
         _speed(plant, name, report)
 
 
@@ -108,6 +112,9 @@ def _kind(group: Group, report: Report) -> None:
             wrong = f"`{key}` is for `kind: {kind}`, and {group.name} is `{group.kind}`"
             report.add(group.place(key), wrong, "leave it out, or change the kind")
     most, duty = len(group.drives), group.duty or 1
+    if most > MOST_MEMBERS:
+        wrong = f"group {group.name} has {most} drives, and {MOST_MEMBERS} are possible"
+        report.add(group.place("drives"), wrong, "make two groups of it")
     if group.kind == "duty_standby" and duty >= most > 0:
         wrong = f"{duty} of the {most} drives of {group.name} are to run, and none stands by"
         report.add(group.place("duty"), wrong, f"write 1 to {most - 1}" if most > 1 else "add a drive to the group")
@@ -127,13 +134,13 @@ def _hard_stops(plant: Plant, report: Report) -> None:
 
 
 def _button(plant: Plant, button: Button, report: Report) -> None:
-    told = [key for key in DOES if getattr(button, key) is not None]
+    told = [key for key in DOES if key in button.keys]
     if len(told) != 1:
         wrong = f"{button.name} does {', '.join(told) or 'nothing'}"
         report.add(button.at, wrong, f"write one of {', '.join(DOES)}")
         return
-    key, of = told[0], button.of
-    if key == "stop_all" or not _target(plant, of, button.place(key), report):
+    key, of = told[0], getattr(button, told[0])
+    if key == "stop_all" or of is None or not _target(plant, of, button.place(key), report):
         return
     if key == "start" and of in plant.drives:
         mode, group = plant.drives[of].mode, plant.group_of(of)
@@ -146,11 +153,11 @@ def _button(plant: Plant, button: Button, report: Report) -> None:
 
 
 def _lamp(plant: Plant, lamp: Lamp, report: Report) -> None:
-    told = [key for key in SHOWS if getattr(lamp, key) is not None]
+    told = [key for key in SHOWS if key in lamp.keys]
     if len(told) != 1:
         wrong = f"{lamp.name} shows {', '.join(told) or 'nothing'}"
         report.add(lamp.at, wrong, f"write one of {', '.join(SHOWS)}")
-    else:
+    elif getattr(lamp, told[0]) is not None:
         _target(plant, lamp.of, lamp.place(told[0]), report)
 
 
