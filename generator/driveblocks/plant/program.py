@@ -62,7 +62,7 @@ class Unit:
     reset: str
     speed: str
     settings: tuple[str, ...]
-    bus: Bus
+    at: Bus
     member: str
     """Its element of a group; empty for none."""
     off: tuple[str, ...]
@@ -132,7 +132,7 @@ def source(plant: Plant, platform: str, *, own: bool = True, name: str = "") -> 
     """The program at the ports of a platform; `own`: with a place for the user's declarations. Raises Refused."""
     _refuse(plant)
     units = list(_units(plant, platform))
-    made = render(
+    return render(
         "plant/Program.st.j2",
         plant=plant,
         name=name or plant.program,
@@ -140,7 +140,7 @@ def source(plant: Plant, platform: str, *, own: bool = True, name: str = "") -> 
         where=PLATFORMS[platform].where,
         bytes=platform == CANONICAL,
         own=own,
-        buses=[_bus(plant, each, platform) for each in plant.lines],
+        buses=[bus(plant, each, platform) for each in plant.lines],
         units=units,
         teams=[_team(plant, each, platform) for each in plant.groups.values()],
         targets=list(_targets(plant)),
@@ -153,13 +153,13 @@ def source(plant: Plant, platform: str, *, own: bool = True, name: str = "") -> 
         word=word,
         real=lambda value: real(float(value)),
     )
-    return made
 
 
 # ------------------------------------------------------------ lines and drives
 
 
-def _bus(plant: Plant, name: str, platform: str) -> Bus:
+def bus(plant: Plant, name: str, platform: str = CANONICAL) -> Bus:
+    """A line at the port of a platform."""
     line, number = plant.lines[name], [*plant.lines].index(name) + 1
     drives = [each.map for each in plant.on(name)]
     rate, its = delivered(drives)
@@ -192,7 +192,7 @@ def _units(plant: Plant, platform: str) -> Iterator[Unit]:
             reset=_reset_of(plant, each),
             speed=_speed(each),
             settings=tuple(f"{name} := {_value(name, value)}" for name, value in each.values.items()),
-            bus=_bus(plant, each.line, platform),
+            at=bus(plant, each.line, platform),
             member=member,
             off=(f"NOT {closed}", f"{each.name}_Off", *_pressed(plant, "stop", each.name)) if member else (),
         )  # fmt: skip
@@ -230,11 +230,9 @@ def _targets(plant: Plant) -> Iterator[Target]:
         starts = (f"{name}_Start", *_pressed(plant, "start", name))
         broken = (f"{one}_Scale.Broken" for one in inputs)
         stops = (f"{name}_Stop", *_pressed(plant, "stop", name), "All_Stop", *broken)
-        if name in plant.groups:
-            held, over = (), f"NOT {name}.Ended"
-        else:
-            held, over = (f"{name}.CommOk", f"NOT {name}.Fault"), f"NOT {name}.StopConfirmed"
-        yield Target(name, each.title, starts, stops, (over, *held))
+        alone = (f"NOT {name}.StopConfirmed", f"{name}.CommOk", f"NOT {name}.Fault")
+        held = (f"NOT {name}.Ended",) if name in plant.groups else alone
+        yield Target(name, each.title, starts, stops, held)
 
 
 def commanded(plant: Plant) -> dict[str, Group | Motor]:
@@ -273,9 +271,9 @@ def _resets(plant: Plant) -> list[tuple[str, tuple[str, ...]]]:
 
 
 def _team(plant: Plant, group: Group, platform: str) -> Team:
-    bus = _bus(plant, plant.drives[group.drives[0]].line, platform)
+    at = bus(plant, plant.drives[group.drives[0]].line, platform)
     delay = 0 if group.kind == "together" else USUAL_DELAY_MS if group.delay_ms is None else group.delay_ms
-    return Team(group, bus.elapsed, CHANGES[group.change], group.duty or 1, delay)
+    return Team(group, at.elapsed, CHANGES[group.change], group.duty or 1, delay)
 
 
 def _contact(plant: Plant, stop: HardStop) -> Contact:
