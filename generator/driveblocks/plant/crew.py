@@ -13,7 +13,7 @@ START_MS = 6_000
 """From a start to a turning motor, beside its ramp."""
 SEEN_MS = 3_000
 """Until what a drive shows has been seen, beside the age of its status."""
-STAY_MS = 5_000
+STAY_MS = 3_000
 """How long it is watched that nothing happens."""
 REST_MS = 60_000
 """Until a motor that coasts has come to rest."""
@@ -47,11 +47,11 @@ class Crew:
         self.stand.may |= {*self.stand.members(target)} - {without}
         self.stand.push(self.button(target, "start"))
 
-    def stop(self, target: str, by: str = "", others: Collection[str] = ()) -> None:
-        """Press its stop, and wait until all of it is proved at standstill."""
-        own = self.stand.members(target)
+    def stop(self, target: str, without: str = "", others: Collection[str] = ()) -> None:
+        """Press its stop, and wait until all of it, but for one, is proved at standstill."""
+        own = [each for each in self.stand.members(target) if each != without]
         self.stand.may -= {*own}
-        self.stand.push(by or self.button(target, "stop"))
+        self.stand.push(self.button(target, "stop"))
         self.see_standstill(own, others)
 
     def reset(self) -> None:
@@ -79,8 +79,8 @@ class Crew:
         return [each for each in names if self.stand.drives[each].motor.driven]
 
     def at_speed(self, name: str) -> bool:
-        """Whether it turns as asked, and its block shows that it runs."""
-        asked, turns = self.stand.asked(name), abs(self.stand.drives[name].hertz)
+        """Whether it turns as asked, forward, and its block shows that it runs."""
+        asked, turns = self.stand.asked(name), self.stand.drives[name].hertz
         return abs(turns - asked) <= max(LEAST_HZ, TOLERANCE * asked) and bool(self.stand.pin(f"{name}.Running"))
 
     def rests(self, name: str) -> bool:
@@ -170,16 +170,12 @@ class Crew:
         `silent`: the contact of their hard stop opens, too.
         """
         ended = {*names}
+        if silent:
+            open_ = [each for each in self.plant.hard_stops.values() if {*self.turning(names)} & {*each.drives}]
+            ended |= {drive for each in open_ for drive in each.drives}
         for group in self.plant.groups.values():
             if group.kind == "sequence" and ended & {*group.drives}:
                 ended |= {*group.drives}
-        if silent:
-            cut = [each for each in self.plant.hard_stops.values() if {*self.turning(names)} & {*each.drives}]
-            ended |= {drive for each in cut for drive in each.drives}
-            return self.others(ended) if ended - {*names} and ended != {*names} else self._rest(ended)
-        return self._rest(ended)
-
-    def _rest(self, ended: Collection[str]) -> list[str]:
         return [each for each in self.turning(self.plant.drives) if each not in ended]
 
     def start_ms(self, target: str) -> int:

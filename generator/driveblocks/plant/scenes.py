@@ -33,15 +33,17 @@ def scenes(plant: Plant) -> Iterator[Scene]:
     """All of a plant, in the order of a day."""
     yield Scene("power-up: nothing turns, every drive answers, a reset closes the contacts", ready, OFF)
     for each in _full(plant):
-        yield Scene(f"start and stop of {each.name}", partial(_alone, motor=each), READY)
-    for name in plant.groups:
-        yield Scene(f"start and stop of group {name}", partial(_group, name=name), READY)
+        group = plant.group_of(each.name)
+        if group is None or group.kind != "sequence":
+            yield Scene(f"start and stop of {each.name}", partial(_alone, motor=each), READY)
+    for name, group in plant.groups.items():
+        yield Scene(f"start and stop of {name}: {', '.join(group.drives)}", partial(_group, name=name), READY)
     yield Scene("start of all together", _together, READY)
     for name in commanded(plant):
         for by in (*_buttons(plant, "stop", name), f"{name}_Stop"):
-            yield Scene(f"stop of {name} by {by}", partial(_stop, name=name, by=by))
+            yield Scene(f"stop of {name} by {by}", partial(_stop, by=by, name=name))
     for by in (*_buttons(plant, "stop_all", ""), "Hmi_StopAll"):
-        yield Scene(f"stop of all by {by}", partial(_stop_all, by=by))
+        yield Scene(f"stop of all by {by}", partial(_stop, by=by))
     yield from _troubles(plant)
 
 
@@ -102,21 +104,19 @@ def running(crew: Crew, drive: str = "") -> None:
 
 
 def _alone(crew: Crew, motor: Motor) -> None:
-    """One with as few others as its group allows."""
-    group = crew.plant.group_of(motor.name)
-    name, at_work = (group.name, group.drives) if group else (motor.name, (motor.name,))
-    if group is not None and group.kind != "sequence":
-        at_work = (motor.name,)
-        for each in group.drives:
-            crew.stand.set(f"{each}_Off", each != motor.name)
-        crew.stand.wait(SETTLE_MS)
-    crew.start(name)
-    said = ", ".join(f"{each} turns at {crew.stand.asked(each):g} Hz" for each in at_work)
-    crew.see(lambda: all(map(crew.at_speed, at_work)), crew.start_ms(name), said, at_work)
-    too = crew.turning([each for each in crew.plant.drives if each not in at_work])
+    """One, while the others of its group are out of service."""
+    name, group = motor.name, crew.plant.group_of(motor.name)
+    for each in group.drives if group else ():
+        crew.stand.set(f"{each}_Off", each != name)
+    crew.stand.wait(SETTLE_MS)
+    target = group.name if group else name
+    crew.start(target)
+    said = f"{name} turns at {crew.stand.asked(name):g} Hz"
+    crew.see(lambda: crew.at_speed(name), crew.start_ms(target), said, [name])
+    too = crew.turning([each for each in crew.plant.drives if each != name])
     if too:
-        raise Broken(f"a start of {motor.name} moves no other motor", crew.stand.states(too))
-    crew.stop(name)
+        raise Broken(f"a start of {name} moves no other motor", crew.stand.states(too))
+    crew.stop(target)
 
 
 def _group(crew: Crew, name: str) -> None:
@@ -145,19 +145,20 @@ def _together(crew: Crew) -> None:
         crew.stop(name, others=crew.others(crew.stand.members(name)))
 
 
-def _stop(crew: Crew, name: str, by: str) -> None:
-    crew.stop(name, by, crew.others(crew.stand.members(name)))
-    crew.see_nothing()
-
-
-def _stop_all(crew: Crew, by: str) -> None:
-    """It stops all, and while it is held nothing starts; nor does it when it is released."""
+def _stop(crew: Crew, by: str, name: str = "") -> None:
+    """It stops a target, or all; a start that is held meanwhile starts nothing when it is released."""
     stand = crew.stand
-    stand.may.clear()
-    stand.set(by, not stand.pin(by))
-    crew.see_standstill([each.name for each in _full(crew.plant)])
-    for name in stand.targets:
-        stand.push(crew.button(name, "start"))
-    crew.see_nothing()
-    stand.set(by, not stand.pin(by))
-    crew.see_nothing()
+    targets = [name] if name else stand.targets
+    own = [each for one in targets for each in stand.members(one)]
+    others, starts = crew.others(own), [crew.button(each, "start") for each in targets]
+    stand.may -= {*own}
+    stand.set(by, not stand.rest(by))
+    crew.see_standstill(own, others)
+    for each in starts:
+        stand.set(each, value=True)
+    crew.see_nothing(others)
+    stand.set(by, stand.rest(by))
+    crew.see_nothing(others)
+    for each in starts:
+        stand.set(each, value=False)
+    crew.see_nothing(others)

@@ -9,22 +9,18 @@ from collections import deque
 from collections.abc import Callable, Iterable, Iterator
 from decimal import Decimal
 
-from driveblocks.bench.simulator.drive import SimulatedDrive
-from driveblocks.bench.simulator.habits import Habits
 from driveblocks.desk.clock import VirtualClock
 from driveblocks.desk.port import WirePort
 from driveblocks.desk.run import wiring
 from driveblocks.desk.run.controller import Controller
-from driveblocks.desk.run.drives import COUNTS_PER_HERTZ, PER_COUNT, REFERENCE, open_scales
 from driveblocks.desk.run.source import Loaded
-from driveblocks.meaning.watchdog import watchdog
-from driveblocks.plant.model import Motor, Plant
+from driveblocks.plant import simulated
+from driveblocks.plant.model import Plant
 from driveblocks.plant.program import commanded
 from driveblocks.plant.wire import Wire
 from driveblocks.render.reasons import REASONS
 from structured_text.engines.engine import Value
 
-USUAL_RAMP_S = 5
 PUSH_MS = 500
 """How long a button is pressed."""
 PANEL_MS = 2_000
@@ -33,7 +29,8 @@ SHARE = Decimal("0.8")
 """Of full speed, what an input or a panel asks for."""
 SECOND_MS, SECONDS = 1000, 10
 """How often it is written down what the drives do, and how much of that is kept."""
-LOSSES = {"trips": "trip", "stop": "stop", "quick_stop": "stop", "coast_stop": "coast"}
+NORMALLY_CLOSED = ("stop", "stop_all")
+NO_REMEDY = "nothing"
 _WHY = {each.code: each for each in REASONS}
 _COUNTED = ("RunS", "Starts")
 """What is kept over a restart."""
@@ -54,7 +51,7 @@ class Stand:
         """Wire it. `loaded` is its program. Raises BuildError."""
         self.plant, self._loaded = plant, loaded
         self.clock = VirtualClock()
-        self.drives = {each.name: _simulated(plant, each) for each in plant.drives.values()}
+        self.drives = {each.name: simulated.drive(plant, each) for each in plant.drives.values()}
         self.wires = {name: self._wire(name) for name in plant.lines}
         self.open: set[str] = set()
         """Hard stops that somebody has opened."""
@@ -72,9 +69,7 @@ class Stand:
         """The PLC as it is switched on."""
         loaded = self._loaded
         wired = wiring.find(loaded.program, set(loaded.drives))
-        made = Controller(
-            loaded.library, loaded.program.name, wired, loaded.drives, self.plant.scan_ms * 1000
-        )
+        made = Controller(loaded.library, loaded.program.name, wired, loaded.drives, self.plant.scan_ms * 1000)
         ports = {name.upper(): WirePort(wire, self.clock) for name, wire in self.wires.items()}
         first, *others = (ports[each.wiring.line.upper()] for each in made.lines)
         made.connect(first, None, *others)
@@ -89,7 +84,7 @@ class Stand:
     def _at_rest(self) -> Iterator[tuple[str, Value]]:
         """What stands at the inputs while nobody touches anything."""
         for button in self.plant.buttons.values():
-            yield button.name, button.does in ("stop", "stop_all")
+            yield button.name, self.rest(button.name)
         for each in self.plant.inputs.values():
             yield each.name, int(each.raw[0] + SHARE * (each.raw[1] - each.raw[0]))
         for motor in self.plant.drives.values():
@@ -143,7 +138,10 @@ class Stand:
         for stop in self.plant.hard_stops.values():
             late = overdue & self._overdue & set(stop.drives)
             if late and self.pin(f"{stop.name}_Ok"):
-                raise Broken(f"the contact of {stop.name} is open while a stop is overdue", f"closed; overdue: {', '.join(sorted(late))}")
+                raise Broken(
+                    f"the contact of {stop.name} is open while a stop is overdue",
+                    f"closed; overdue: {', '.join(sorted(late))}",
+                )
         self._overdue = overdue
 
     def wait(self, ms: int) -> None:
@@ -164,16 +162,23 @@ class Stand:
     def pin(self, name: str) -> Value:
         return self.controller.instance[name]
 
+    def number(self, name: str) -> int:
+        return self.controller.number(name)
+
     def set(self, name: str, value: Value) -> None:
         """Set an input; it stays so over a restart of the PLC."""
         self._pins[name] = self.controller.instance[name] = value
 
     def push(self, name: str, ms: int = PUSH_MS) -> None:
         """Press a button, and release it."""
-        rest = bool(self._pins.get(name, False))
-        self.set(name, not rest)
+        self.set(name, not self.rest(name))
         self.wait(ms)
-        self.set(name, rest)
+        self.set(name, self.rest(name))
+
+    def rest(self, name: str) -> bool:
+        """What a button shows while nobody touches it: TRUE, if it stops."""
+        button = self.plant.buttons.get(name)
+        return button is not None and button.does in NORMALLY_CLOSED
 
     def restart(self) -> None:
         """Switch the PLC off and on: what is retentive stays, and the inputs are as they are."""
@@ -198,11 +203,11 @@ class Stand:
 
     def state(self, name: str) -> str:
         """What a drive does, and why by its block."""
-        reason, code = self.pin(f"{name}.Reason"), self.pin(f"{name}.FaultCode")
-        said = _WHY.get(reason) if isinstance(reason, int) else None
-        why = f"Reason {reason}: {said.en}; {said.remedy}" if said else f"Reason {reason}"
+        number, code = self.number(f"{name}.Reason"), self.number(f"{name}.FaultCode")
+        reason = _WHY.get(number)
+        said = f": {reason.en}" + (f"; {reason.remedy}" if reason.remedy != NO_REMEDY else "") if reason else ""
         fault = f", fault {code}" if self.pin(f"{name}.Fault") else ""
-        return f"{name} is at {self.drives[name].hertz:.1f} Hz{fault}; {why}"
+        return f"{name} is at {self.drives[name].hertz:.1f} Hz{fault}, Reason {number}{said}"
 
     def states(self, names: Iterable[str]) -> str:
         """The same of several."""
@@ -210,7 +215,10 @@ class Stand:
 
     def _row(self) -> str:
         """What all drives do at this second."""
-        cells = (f"{name} {drive.hertz:.1f} Hz, {drive.mode}, {self.pin(f'{name}.Reason')}" for name, drive in self.drives.items())
+        cells = (
+            f"{name} {drive.hertz:.1f} Hz, {drive.mode}, {self.number(f'{name}.Reason')}"
+            for name, drive in self.drives.items()
+        )
         contacts = (f"{each} {'closed' if self.pin(f'{each}_Ok') else 'open'}" for each in self.plant.hard_stops)
         return f"{self.ms / 1000:7.1f} s  {'; '.join((*cells, *contacts))}"
 
@@ -222,24 +230,3 @@ class Stand:
     def targets(self) -> list[str]:
         """What has a command of its own."""
         return [*commanded(self.plant)]
-
-
-def _simulated(plant: Plant, motor: Motor) -> SimulatedDrive:
-    """A drive as its keypad is set: by the plant file; a scale that nobody gives is the usual one."""
-    ramps = [float(motor.maximum_hz) / float(each or min(USUAL_RAMP_S, motor.stop_within_ms / 2000)) for each in (motor.ramp_up_s, motor.ramp_down_s)]
-    up, down = (max(1, round(each)) for each in ramps)
-    does = next((LOSSES[what] for _, what in own.reactions if what in LOSSES), "trip") if (own := watchdog(motor.map)) else "trip"
-    code = next((each.code for each in motor.map.faults.codes if each.code), 1)
-    silence = motor.values.get("WatchdogMs")
-    habits = Habits(
-        maximum_hz=int(max(motor.maximum_hz, motor.full_scale_hz or 0).to_integral_value("ROUND_CEILING")),
-        ramp=up, stop_ramp=down, scales=dict(_scales(motor)),
-        watchdog_ms=int(silence) if own and silence else None, watchdog=does, watchdog_code=code,
-    )  # fmt: skip
-    return SimulatedDrive(motor.map, motor.unit, habits, ascii_mode=plant.lines[motor.line].way.mode == "ascii")
-
-
-def _scales(motor: Motor) -> Iterator[tuple[int, Decimal]]:
-    for name, register in open_scales(motor.map).items():
-        value = motor.values.get(name) or Decimal(COUNTS_PER_HERTZ if name == REFERENCE else PER_COUNT)
-        yield register, 1 / value if name == REFERENCE else value

@@ -19,29 +19,33 @@ LOWEST_INT = -32768
 
 
 def trip(crew: Crew, motor: Motor) -> None:
-    """One has a fault: a standby takes its place once its standstill is proved, which some drives show after the reset.
+    """One has a fault: a standby takes its place, where its standstill is proved; a reset starts nothing.
 
-    The others run on, and a reset does not start it again.
+    The others run on.
     """
-    name, stand, group = motor.name, crew.stand, crew.plant.group_of(motor.name)
-    others, drive = crew.others([name]), stand.drives[name]
-    spare = [each for each in group.drives if not crew.off(each)] if group and crew.duty(group.name) else []
-    replaced = len(spare) > (crew.duty(group.name) or 0) if group else False
-    stand.may = {*spare} - {name} if replaced else set()
+    name, stand, seen = motor.name, crew.stand, crew.seen_ms(motor)
+    others, drive, spares = crew.others([name]), stand.drives[name], _spares(crew, motor)
+    stand.may = {*spares}
     drive.trip(next((each.code for each in motor.map.faults.codes if each.code and not each.power_cycle), 1))
-    seen = crew.seen_ms(motor)
     crew.see(lambda: bool(stand.pin(f"{name}.Fault")), seen, f"{name} shows its fault", [name], others)
     _lit(crew, name)
     crew.see_rest([name], others)
-    early = proves_while_tripped(motor.map)
-    if group and replaced and early:
+    group = crew.plant.group_of(name)
+    if group and spares:
         crew.see_work(group.name, name, others)
+        stand.may.clear()
     drive.clear_cause()
     crew.clear(motor)
     crew.see(lambda: not stand.pin(f"{name}.Fault"), seen + START_MS, f"the fault of {name} is reset", [name], others)
-    if group and replaced and not early:
-        crew.see_work(group.name, name, others)
     crew.see_nothing(others)
+
+
+def _spares(crew: Crew, motor: Motor) -> list[str]:
+    """Who may take its place after a trip: nobody, where its drive proves no standstill while it has a fault."""
+    group = crew.plant.group_of(motor.name)
+    if group is None or not crew.duty(group.name) or not proves_while_tripped(motor.map):
+        return []
+    return [each for each in group.drives if not crew.off(each) and not crew.turning([each])]
 
 
 def _lit(crew: Crew, name: str) -> None:
@@ -59,7 +63,7 @@ def cut(crew: Crew, motor: Motor) -> None:
     gone, wire = [each.name for each in far], stand.wires[motor.line]
     moving, others = crew.turning(gone), crew.others(gone, silent=True)
     stand.may.clear()
-    wire.cut = [each.unit for each in (*far, *crew.plant.meters_on(motor.line))]
+    wire.cut = [*(each.unit for each in far), *(each.unit for each in crew.plant.meters_on(motor.line))]
     for stop in crew.plant.hard_stops.values():
         if {*stop.drives} & {*moving}:
             _opens(crew, stop, [each for each in stop.drives if each in moving], others, alone=far == line)
@@ -112,9 +116,7 @@ def dead(crew: Crew, name: str) -> None:
     if crew.opened():
         raise Broken("no contact opens for a drive that stood before it was silent", f"{', '.join(crew.opened())}")
     for each in free:
-        stand.may -= {*stand.members(each)}
-        stand.push(crew.button(each, "stop"))
-        crew.see_standstill([one for one in stand.members(each) if one != name])
+        crew.stop(each, without=name)
 
 
 def _in_sequence(crew: Crew, target: str, name: str) -> bool:
@@ -129,6 +131,8 @@ def hard_stop(crew: Crew, name: str) -> None:
     crew.stand.may.clear()
     crew.stand.open.add(name)
     crew.see(lambda: not crew.turning(own), SEEN_MS, f"{name} takes the torque of its motors", own, others)
+    told: Callable[[], bool] = lambda: not any(crew.stand.pin(f"{each}.Enable") for each in own)  # noqa: E731
+    crew.see(told, SEEN_MS, f"{name} takes the Enable of its drive blocks", own, others)
     shown = f"{', '.join(own)} at standstill, and StopConfirmed"
     crew.see(lambda: all(map(crew.rests, own)), REST_MS, shown, own, others)
     crew.stand.open.discard(name)
