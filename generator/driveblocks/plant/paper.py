@@ -35,7 +35,8 @@ table,tbody,tr,td{display:block;width:auto}tr{border:1px solid #777;margin:.6em 
 td{border:0;padding:.15em 0}td:empty{display:none}td[data-head]:before{content:attr(data-head) ": ";color:#555}
 figure{overflow-x:auto}svg{max-width:none}}
 @page{size:A4;margin:14mm}
-@media print{body{font-size:10pt;max-width:none;padding:0}table{font-size:8.5pt}h2.own:not(:first-of-type){break-before:page}
+@media print{body{font-size:10pt;max-width:none;padding:0}table{font-size:8.5pt}
+h2.own:not(:first-of-type){break-before:page}
 th,td{padding:.15em .4em}
 th,.tick{print-color-adjust:exact}a{color:inherit;text-decoration:none}}"""
 

@@ -62,7 +62,7 @@ class Stand:
         self.seconds: deque[str] = deque(maxlen=SECONDS)
         self._turned: set[str] = set()
         self._overdue: set[str] = set()
-        self._pins: dict[str, Value] = dict(self._at_rest())
+        self._pins: dict[str, Value] = dict(at_rest(plant))
         self.controller = self._made()
 
     def _made(self) -> Controller:
@@ -80,16 +80,6 @@ class Stand:
     def _wire(self, name: str) -> Wire:
         drives = [self.drives[each.name] for each in self.plant.on(name)]
         return Wire(self.plant.lines[name], drives, [each.unit for each in self.plant.meters_on(name)])
-
-    def _at_rest(self) -> Iterator[tuple[str, Value]]:
-        """What stands at the inputs while nobody touches anything."""
-        for button in self.plant.buttons.values():
-            yield button.name, self.rest(button.name)
-        for each in self.plant.inputs.values():
-            yield each.name, int(each.raw[0] + SHARE * (each.raw[1] - each.raw[0]))
-        for motor in self.plant.drives.values():
-            if motor.speed is None and motor.mode != "monitor":
-                yield f"{motor.name}_Hertz", float(SHARE * motor.maximum_hz)
 
     def copied(self) -> "Stand":
         """Another stand in the same state, which goes its own way from here."""
@@ -177,8 +167,7 @@ class Stand:
 
     def rest(self, name: str) -> bool:
         """What a button shows while nobody touches it: TRUE, if it stops."""
-        button = self.plant.buttons.get(name)
-        return button is not None and button.does in NORMALLY_CLOSED
+        return name in self.plant.buttons and self.plant.buttons[name].does in NORMALLY_CLOSED
 
     def restart(self) -> None:
         """Switch the PLC off and on: what is retentive stays, and the inputs are as they are."""
@@ -230,3 +219,14 @@ class Stand:
     def targets(self) -> list[str]:
         """What has a command of its own."""
         return [*commanded(self.plant)]
+
+
+def at_rest(plant: Plant) -> Iterator[tuple[str, Value]]:
+    """What stands at the inputs of a plant's program while nobody touches anything."""
+    for button in plant.buttons.values():
+        yield button.name, button.does in NORMALLY_CLOSED
+    for each in plant.inputs.values():
+        yield each.name, int(each.raw[0] + SHARE * (each.raw[1] - each.raw[0]))
+    for motor in plant.drives.values():
+        if motor.speed is None and motor.mode != "monitor":
+            yield f"{motor.name}_Hertz", float(SHARE * motor.maximum_hz)
