@@ -1,6 +1,8 @@
 """The rules of plants: each mistake at its place, several at once, and good plants good."""
 
+import re
 from pathlib import Path
+from random import Random
 
 import pytest
 import yaml
@@ -11,7 +13,11 @@ from driveblocks.desk.site.kept import PLANT
 from driveblocks.maps.problem import MapError, Problem
 from driveblocks.maps.shape import keys_of
 from driveblocks.plant import check, load
+from driveblocks.plant.line import lines
 from driveblocks.plant.model import SECTIONS, Plant
+from driveblocks.plant.rules import memory
+from driveblocks.platforms.cost import CODE_KIB, FAMILY_KIB
+from driveblocks.render.library import PLANT as GROUPS
 
 HERE = Path(__file__).parent
 EXAMPLES = HERE.parents[1] / "examples/plants"
@@ -29,7 +35,9 @@ def problems(path: Path, text: str) -> tuple[Problem, ...]:
     return ()
 
 
-@pytest.mark.parametrize("name", ["conveyor", "pumps", "small"])
+@pytest.mark.parametrize(
+    "name", ["pumps", *(pytest.param(each, marks=pytest.mark.thorough) for each in ("conveyor", "small"))]
+)
 def test_the_examples_are_good_and_nothing_is_to_be_looked_at(name: str) -> None:
     judged = check.judged(EXAMPLES / f"{name}.yaml")
     assert judged.figures.keys() == judged.plant.lines.keys()
@@ -57,6 +65,15 @@ def test_all_mistakes_come_at_once(tmp_path: Path) -> None:
     for old, new in edits.items():
         text = text.replace(old, new)
     assert [each.line for each in problems(tmp_path / "works.yaml", text)] == [9, 9, 12, 16, 18]
+
+
+@pytest.mark.thorough
+def test_no_damage_to_a_file_is_more_than_a_mistake(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    chance, words = Random(7), ("[]", "{}", "5", "true", "''", "null", "-1", ": ", "{", "]", ", ", "P1", "Level", "Ü")
+    monkeypatch.setattr(check, "_figures", lambda *_: {})
+    for _ in range(300):
+        token = chance.choice([*re.finditer(r"[\w.]+|\[[^\]]*\]|\{[^}]*\}", WORKS)])
+        problems(tmp_path / "works.yaml", WORKS[: token.start()] + chance.choice(words) + WORKS[token.end() :])
 
 
 def test_one_drive_more_than_a_line_takes(tmp_path: Path) -> None:
@@ -92,6 +109,20 @@ def test_a_plant_that_may_not_fit_is_good_with_a_warning(tmp_path: Path) -> None
     assert warning.wrong.startswith("S7-1217C has 150 kB, and the plant may take ")
 
 
+@pytest.mark.thorough
+def test_the_data_of_a_plant_is_what_the_page_of_memory_says(tmp_path: Path) -> None:
+    drives = "".join(
+        f"  M{unit}: {{drive: rockwell_powerflex_4, line: A, unit: {unit}, maximum_hz: 50, stop_within_ms: 15000}}\n"
+        for unit in range(1, 5)
+    )
+    path = tmp_path / "four.yaml"
+    path.write_text(f'plant: Four\nlines:\n  A: {{port: "1", rate: 19200}}\ndrives:\n{drives}', encoding="utf-8")
+    plant = load.load(path)
+    code = CODE_KIB[""] + CODE_KIB[GROUPS]
+    found = [round((each - 12_354) / 1024) - code for each in memory.needed(plant, lines(plant).values())]
+    assert found == [*FAMILY_KIB], "docs/memory.md says 12,354 bytes for four drives"
+
+
 FOUND = """
 {}:
   map: "{}"
@@ -109,7 +140,7 @@ FOUND = """
 def test_what_commission_found_counts_unless_the_plant_says_otherwise(tmp_path: Path) -> None:
     path, given = tmp_path / "works.yaml", WORKS.replace("ramp_down_s: 10", "settings: {LongestMs: 500}")
     path.write_text(given + FOUND.format("P2", "invt_chf"), encoding="utf-8")
-    values = {name: str(each) for name, each in check.good(path).drives["P2"].values.items()}
+    values = {name: str(each) for name, each in load.load(path).drives["P2"].values.items()}
     assert values == {"FrequencyScale": "0.01", "LongestMs": "500", "TurnRoundMs": "50"}
 
 

@@ -18,12 +18,18 @@ Ask = Callable[[str, str], str]
 """A question and what Enter means, to the answer."""
 Say = Callable[[str], None]
 _HINT = "up to 22 letters and digits, a letter first"
+NAME = "Pumping station  # the program is called after it: PumpingStation"
+"""What the commented file calls its plant."""
 
 
 def skeleton(name: str) -> str:
     """The commented file, with another name."""
-    text = (files(__package__) / "skeleton.yaml").read_text(encoding="utf-8")
-    return text.replace("Pumping station  # the program is called after it: PumpingStation", _quoted(name), 1)
+    return example().replace(NAME, json.dumps(name, ensure_ascii=False), 1)
+
+
+def example() -> str:
+    """The commented file as it is."""
+    return (files(__package__) / "skeleton.yaml").read_text(encoding="utf-8")
 
 
 def asked(name: str, ask: Ask, say: Say) -> str:
@@ -37,7 +43,7 @@ def asked(name: str, ask: Ask, say: Say) -> str:
         port = ask(f"  Port of the PLC for {line}", str(len(lines) + 1))
         rate, form = ask("  Bit rate; 0: as delivered", "0"), ask("  Format, as 8N1; 0: as delivered", "0")
         ways = "".join(f", {key}: {_quoted(each)}" for key, each in (("rate", rate), ("form", form)) if each != "0")
-        lines.append(f"  {line}: {{port: {_quoted(port)}{ways}}}\n")
+        lines.append(f"  {line}: {{port: {json.dumps(port)}{ways}}}\n")
         drives += _drives(line, ask, say)
     tags = [each.split(":", 1)[0].strip() for each in drives]
     return (
@@ -108,5 +114,5 @@ def _name(question: str, ask: Ask, say: Say, usual: str) -> str:
 
 
 def _quoted(text: str) -> str:
-    """A text as YAML, in quotes."""
-    return json.dumps(text, ensure_ascii=False)
+    """A text as YAML, in quotes; a number without."""
+    return text if text.isdecimal() and text.isascii() else json.dumps(text, ensure_ascii=False)

@@ -19,9 +19,7 @@ Label = Annotated[str, Form("name", LABEL, str, "write up to 24 letters and digi
 Amount = Annotated[
     Decimal, Form("amount", re.compile(_NUMBER), Decimal, "write a number such as 50 or 2.5", numeric=True)
 ]
-Named = Annotated[
-    str, Form("drive", re.compile(r"\S(.*\S)?"), str, "write a family, a model number or a map file", numeric=True)
-]
+Named = Annotated[str, Form("drive", re.compile(r"\S(.*\S)?"), str, "write a family, or a map file", numeric=True)]
 CharacterForm = Annotated[
     str, Form("format", re.compile("[78][NnEeOo][12]"), str.upper, 'write 8N1, 8N2, 8O1 or "8E1", with its quotes')
 ]
@@ -84,7 +82,7 @@ class Line(Called):
 
 @dataclass(frozen=True, kw_only=True)
 class Members(Entry):
-    """What is set of `VFD_Settings`; times in ms."""
+    """`settings` of a drive: what is set of its `VFD_Settings`; times in ms."""
 
     TurnRoundMs: Ms | None = option("longest time until it answers", "60")
     LongestMs: Ms | None = option("no reply arrives later", "500")
@@ -104,14 +102,15 @@ class Members(Entry):
     @property
     def given(self) -> dict[str, Decimal]:
         """Those that the file gives."""
-        return {name: Decimal(getattr(self, name)) for name in self.keys}
+        values = {name: getattr(self, name) for name in self.keys}
+        return {name: Decimal(each) for name, each in values.items() if each is not None}
 
 
 @dataclass(frozen=True, kw_only=True)
 class Motor(Called):
     """A drive with its motor."""
 
-    drive: Named = fact("family, model number, or map file beside this one", "chf")
+    drive: Named = fact("a family, a part of its name that no other has, or a map file beside this one", "chf")
     line: Label = fact("its line", "A")
     unit: Number = fact("its unit address", "1")
     maximum_hz: Amount = fact("the highest speed that the machine takes, Hz", "50")
@@ -227,7 +226,7 @@ class Meter(Called):
 
 @dataclass(frozen=True, kw_only=True)
 class Plant(Entry):
-    """A plant; its entries by their names, in the order of the file."""
+    """The plant as a whole. Its sections hold entries by their names, in the order of the file."""
 
     plant: Str = fact("its name; the program is called after it", "Pumping station")
     scan_ms: Count = option("time between two scans, ms", "10", default=10)

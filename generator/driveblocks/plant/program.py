@@ -12,7 +12,7 @@ from driveblocks.maps.model import Drive
 from driveblocks.maps.problem import Refused
 from driveblocks.maps.trust import second_hand
 from driveblocks.meaning.reference import reference
-from driveblocks.meaning.serial import Character, character, delivered, serial
+from driveblocks.meaning.serial import Character, character
 from driveblocks.plant.model import Group, HardStop, Input, Lamp, Motor, Plant
 from driveblocks.platforms import CANONICAL, PLATFORMS
 from driveblocks.render.drive import drive_block
@@ -161,15 +161,12 @@ def source(plant: Plant, platform: str, *, own: bool = True, name: str = "") -> 
 def bus(plant: Plant, name: str, platform: str = CANONICAL) -> Bus:
     """A line at the port of a platform."""
     line, number = plant.lines[name], [*plant.lines].index(name) + 1
-    drives = [each.map for each in plant.on(name)]
-    rate, its = delivered(drives)
-    units = len(drives) + len(plant.meters_on(name))
+    units = len(plant.on(name)) + len(plant.meters_on(name))
     slots = next((each for each in sorted(LINE_SIZES) if each >= units), max(LINE_SIZES))
     block = PLATFORMS[platform].line if platform != CANONICAL else "MB_ByteLine"
-    ascii_alone = any(serial(each).ascii for each in drives)
     return Bus(
-        name, line.title, line.port, number, f"{block}{slots}", slots, line.rate or rate,
-        character(line.form) if line.form else its, (line.mode or ("ascii" if ascii_alone else "rtu")) == "ascii",
+        name, line.title, line.port, number, f"{block}{slots}", slots, line.way.rate,
+        character(line.way.form), line.way.mode == "ascii",
         elapsed="ElapsedMs" if platform == CANONICAL else f"{name}.ElapsedMs",
     )  # fmt: skip
 

@@ -122,7 +122,7 @@ def _settings(motor: Motor, report: Report) -> None:
         elif name == "KeepWord" and not 0 <= value <= OFF:
             report.add(places[name], f"`{name}: {value}` is no word", "write 0000H to FFFFH")
     for name, needed in ((REFERENCE, REFERENCE in open_), (POLES, has.in_rpm)):
-        if needed and name not in motor.values and name not in given and motor.mode != "monitor":
+        if needed and name not in motor.values and name not in places and motor.mode != "monitor":
             wrong = f"{motor.name} has no `{name}`, and its manual does not give it: it would not start"
             right = f"add `settings: {{{name}: ...}}`; find it out on the uncoupled motor"
             report.add(motor.name_at, wrong, right)

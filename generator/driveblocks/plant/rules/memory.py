@@ -7,7 +7,7 @@ from driveblocks.maps.decode import nearest
 from driveblocks.maps.problem import Report
 from driveblocks.plant.model import Plant
 from driveblocks.platforms.cost import CODE_KIB, CPU_KB, FAMILY_KIB, kept
-from driveblocks.render.library import LINE32, METER, PARAMETERS
+from driveblocks.render.library import CHINESE, LINE32, METER, PARAMETERS, PLANT
 
 
 def check(plant: Plant, report: Report) -> None:
@@ -36,8 +36,11 @@ def fits(plant: Plant, lines: Collection[Line], report: Report, warnings: Report
 def needed(plant: Plant, lines: Collection[Line]) -> tuple[int, int]:
     """Bytes of code and data: with the smallest families, and with the largest."""
     families = len({each.map.prefix for each in plant.drives.values()})
-    extras = [LINE32] * any(each.size > 8 for each in lines) + [PARAMETERS, METER] * bool(plant.meters)
-    code = CODE_KIB[""] + sum(CODE_KIB[each] for each in extras)
+    extras = {
+        PLANT: True, LINE32: any(each.size > 8 for each in lines), METER: plant.meters, PARAMETERS: plant.meters,
+        CHINESE: plant.language == "zh",
+    }  # fmt: skip
+    code = CODE_KIB[""] + sum(CODE_KIB[each] for each, has in extras.items() if has)
     data = sum(_data(each) for each in lines)
     return tuple(1024 * (code + families * each) + data for each in FAMILY_KIB)  # type: ignore[return-value]
 
