@@ -25,17 +25,17 @@ def run(plant: Path, target: str, output: Path) -> None:
     """
     from driveblocks.maps.problem import Refused
     from driveblocks.output import transaction
-    from driveblocks.plant import forms, project, tags
-    from driveblocks.plant.load import load
+    from driveblocks.plant import folder, forms, project, tags
+    from driveblocks.plant.check import good
     from driveblocks.platforms.problem import ExportError
     from driveblocks.render.text import languages
 
     if target not in forms.TARGETS:
         raise click.BadParameter(f"`{target}` is none; write {', '.join(forms.TARGETS)}", param_hint="--to")
     try:
-        read = load(plant)
+        read = good(plant)
         texts = languages(forms.codes(read), "utf-8")
-        made = forms.files(read, target, texts) | {"tags.csv": tags.table(read, *texts[1:])}
+        made = forms.files(read, target, texts) | {"tags.csv": tags.table(read, *texts[1:])} | folder.files(read)
         with transaction.locked(output):
             if transaction.recover(output):
                 click.echo(f"{output}: took back a run that was interrupted", err=True)
