@@ -125,7 +125,7 @@ def test_a_program_runs_by_a_script_and_leaves_a_trace_and_a_picture(program: Pa
     lines = result.output.splitlines()
     assert all(line.startswith("SIMULATED  ") for line in lines)
     assert lines[1] == "SIMULATED  CHF at unit 1: maximum 60 Hz (100 %), FrequencyScale=0.01,"
-    assert lines[5] == "SIMULATED  JSCC at unit 7: maximum 50 Hz, ReferenceScale=100"
+    assert lines[4] == "SIMULATED  JSCC at unit 7: maximum 50 Hz, ReferenceScale=100"
     assert lines[-1] == "SIMULATED  stopped, and standstill read: Motor"
     rows = Path("t.csv").read_text(encoding="utf-8").splitlines()
     assert rows[:4] == ["# SIMULATED, my.st", "ms,Motor.Running,Hz", "0,0,20", "2000,0,10"]

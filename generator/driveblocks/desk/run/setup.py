@@ -17,7 +17,7 @@ from driveblocks.desk.port import Port, WirePort
 from driveblocks.desk.run import demo, live, probe, source
 from driveblocks.desk.run.controller import Controller
 from driveblocks.desk.run.departure import Departure
-from driveblocks.desk.run.drives import Named, named, of_program, words
+from driveblocks.desk.run.drives import Named, named, of_program, told, words
 from driveblocks.desk.run.options import Options
 from driveblocks.desk.run.options import wrong as mistakes_of
 from driveblocks.desk.run.permission import strangers
@@ -219,9 +219,8 @@ class Setup:
                 console.write(str(note))
             if self._options.real and self._options.loopback and not free:
                 self._session.told.put("only reads and stops are sent; if a simulator is there, add --simulated")
-            for one in self._drives:
-                for line in one.told():
-                    self._session.told.put(line)
+            for line in told(self._drives):
+                self._session.told.put(line)
             screen = self._screen()
             return self._report(self._fast(screen) if self._options.fast else self._live(screen))
 

@@ -129,7 +129,7 @@ class Setup:
         self.maps = {one.unit: one.drive for one in wanted}
         self._play = Play(self.maps, scenario.read(words.scenario, self.maps) if words.scenario else ())
         drives = [one.made(ascii_mode=words.ascii) for one in wanted]
-        self._settings = [line for one in wanted for line in one.told()]
+        self._settings = [line for one in wanted for line in (*one.told(), *one.unwritten())]
         rate, its = delivered(self.maps.values())
         self._rate, self._its = words.baud or rate, character(words.form) if words.form else its
         self._bus = Bus(drives, self._rate, self._its.bits, ascii_mode=words.ascii)
