@@ -52,13 +52,17 @@ def test_english_alone_is_ascii_in_every_file_but_for_the_sign_of_a_degree() -> 
         ("en,zh", 1, "ACME: the map has no Chinese texts: its texts are English alone"),
         ("zh", 0, "ACME: the map has no Chinese texts: it gets no text functions; --lang en makes them"),
         ("en", 1, ""),
+        ("", 1, ""),
     ],
 )
 @pytest.mark.thorough
-def test_a_map_without_chinese_gets_none_and_that_is_said(tmp_path: Path, lang: str, files: int, said: str) -> None:
+def test_a_map_without_chinese_gets_none_and_that_is_said_where_it_was_asked_for(
+    tmp_path: Path, lang: str, files: int, said: str
+) -> None:
     path = tmp_path / "acme.yaml"
     path.write_text(page.skeleton(), encoding="utf-8")
-    result = CliRunner().invoke(app, ["build", str(path), "-o", str(tmp_path / "out"), "--lang", lang])
+    asked = ["--lang", lang] if lang else []
+    result = CliRunner().invoke(app, ["build", str(path), "-o", str(tmp_path / "out"), *asked])
     assert result.exit_code == 0
     assert "\n".join(result.stdout.splitlines()[1:]) == said
     assert len(list((tmp_path / "out").rglob("ACME_FaultText*.st"))) == files

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
+from click.core import ParameterSource
 
 from driveblocks.commands import FILE, MAPS, refuse
 from driveblocks.platforms import TARGETS
@@ -69,7 +70,8 @@ def run(  # noqa: PLR0913, PLR0917 - one parameter per option of the command lin
     click.echo(f"{folder}: {len(plan.texts) - 1} files for {drives}, {changed} changed")
     for name in plan.kept:
         click.echo(f"{folder / name}: yours, kept as you edited it; build into another folder to see the new one")
-    for note in filter(None, (missing(source.drive, asked.languages) for source in plan.sources)):
+    given = click.get_current_context().get_parameter_source("lang") is not ParameterSource.DEFAULT
+    for note in filter(None, (missing(source.drive, asked.languages) for source in plan.sources if given)):
         click.echo(note)
     for stem in sorted(asked.measured.keys() - {source.path.stem for source in plan.sources}):
         click.echo(f"{site}: {stem} is not built here, and no page shows its drives")
