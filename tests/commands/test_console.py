@@ -4,6 +4,7 @@ import errno
 import io
 import json
 import os
+import re
 import sys
 import unicodedata
 from collections.abc import Callable, Iterator
@@ -16,7 +17,6 @@ from rich.text import Text
 from driveblocks import cli, console
 from driveblocks.bench import runner
 from driveblocks.bench.outcome import Run
-from driveblocks.output import units
 from driveblocks.prove import archive
 from driveblocks.show.layout import card, heading, table
 from structured_text.visible import file_name, visible
@@ -174,16 +174,46 @@ def test_a_terminal_shows_how_far_it_is_until_something_else_is_printed(printed:
             bar.show(3, 7, f"RED {ticks}\x1b[31m")
             bar.close()
             console.write("printed")
-            bar.show(4, 7, "going on")
+            bar.show(5, 7, "going on")
             bar.close()
             bar.close()
 
     text = printed(function=work)
-    seen = [f"RED {ticks}" in text and "3/7" in text and "4/7" in text for ticks in (False, True)]
+    seen = [f"RED {ticks}" in text and " 43 %" in text and " 71 %" in text for ticks in (False, True)]
     assert seen == [Stream.terminal] * 2
     assert text.count("\x1b[?25h") == text.count("\x1b[?25l") == (4 if Stream.terminal else 0), "the cursor is back"
     assert "\x1b[31m" not in text
     assert Stream.terminal or text == "printed\n" * 2
+
+
+def test_how_long_it_takes_still_is_reckoned_from_the_share_that_is_done(printed: Printed) -> None:
+    seconds = [0.0]
+
+    def work() -> None:
+        bar = console.Bar(console.terminal(), ticks=False, clock=lambda: seconds[0])
+        for at, done, total, name in ((100, 0, 8, "one"), (106, 2, 8, "one"), (116, 0, 4, "two"), (119, 3, 4, "two")):
+            seconds[0] = at
+            bar.show(done, total, name)
+        bar.close()
+
+    text = printed(function=work)
+    for words in ("0 s: one", "6 s, about 18 s left: one", "0 s: two", "3 s, about 1 s left: two"):
+        assert (words in re.sub(r"\x1b\[[\d;?]*[a-zA-Z]", "", text)) is Stream.terminal
+
+
+@pytest.mark.parametrize(
+    ("share", "seconds", "said"),
+    [
+        (0.0, 5.0, "5 s"),
+        (0.01, 5.0, "5 s"),
+        (0.5, 0.9, "1 s"),
+        (0.5, 50.0, "50 s, about 50 s left"),
+        (0.1, 99.0, "99 s, about 15 min left"),
+        (1.0, 240.0, "4 min"),
+    ],
+)
+def test_a_time_that_is_left_is_said_when_it_can_be_known(share: float, seconds: float, said: str) -> None:
+    assert console.left(share, seconds) == said
 
 
 def test_the_commands_that_take_long_say_on_a_terminal_how_far_they_are(
@@ -195,13 +225,12 @@ def test_the_commands_that_take_long_say_on_a_terminal_how_far_they_are(
 
     monkeypatch.setattr(archive, "run", proofs)
     text = printed("prove", "jscc")
-    assert ("a block" in text and "1/2" in text) is Stream.terminal
+    assert ("a block" in text and "50 %" in text) is Stream.terminal
 
     def run(*given: Any) -> Run:
         given[-1](3, 4, "a drive")
         return Run([], 0.0)
 
     monkeypatch.setattr(runner, "run", run)
-    monkeypatch.setattr(units, "units", lambda *_: [])
     text = printed("test", "jscc")
-    assert ("making the programs" in text and "a drive" in text and "3/4" in text) is Stream.terminal
+    assert ("making the programs" in text and "a drive" in text and "75 %" in text) is Stream.terminal

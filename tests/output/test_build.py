@@ -56,7 +56,7 @@ def test_english_alone_is_ascii_in_every_file_but_for_the_sign_of_a_degree() -> 
     ],
 )
 @pytest.mark.thorough
-def test_a_map_without_chinese_gets_none_and_that_is_said_where_it_was_asked_for(
+def test_a_map_without_chinese_gets_none_and_a_build_that_asked_says_so(
     tmp_path: Path, lang: str, files: int, said: str
 ) -> None:
     path = tmp_path / "acme.yaml"
