@@ -25,7 +25,7 @@ NARROWEST = 60
 """Columns below which tables would lose text; a narrower terminal breaks the lines itself."""
 WIDEST = 1000
 """No terminal is wider; COLUMNS may say anything."""
-KNOWN = 0.02
+KNOWN = 0.05
 """The share of something from which its pace tells how long the rest takes."""
 MINUTES_FROM = 100
 """Seconds from which a time is said in minutes."""
@@ -142,7 +142,9 @@ class Bar:
 
 def left(share: float, seconds: float) -> str:
     """How long it took to come so far, and how long the rest takes at that pace, in words."""
-    rest = f", about {_time(seconds * (1 - share) / share)} left" if KNOWN <= share < 1 and seconds >= 1 else ""
+    rest = (
+        f", about {_time(max(1.0, seconds * (1 - share) / share))} left" if KNOWN <= share < 1 and seconds >= 1 else ""
+    )
     return _time(seconds) + rest
 
 

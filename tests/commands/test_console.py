@@ -17,6 +17,9 @@ from rich.text import Text
 from driveblocks import cli, console
 from driveblocks.bench import runner
 from driveblocks.bench.outcome import Run
+from driveblocks.desk.run import probe
+from driveblocks.maps.problem import Refused
+from driveblocks.output import build
 from driveblocks.prove import archive
 from driveblocks.show.layout import card, heading, table
 from structured_text.visible import file_name, visible
@@ -24,6 +27,8 @@ from structured_text.visible import file_name, visible
 HOSTILE = "\x1b[31mred\x1b]0;t\x07\r\x08\x7f\x9b5m\u202eback\u2066\u200b\u2028\ufeff\U000e0041"
 SEEN = r"\u001b[31mred\u001b]0;t\u0007\u000d\u0008\u007f\u009b5m\u202eback\u2066\u200b\u2028\ufeff\udb40\udc41"
 
+DRAWN = re.compile(r"\r?\x1b\[(?!31m)[\d;?]*[a-zA-Z]")
+"""What a bar is drawn with."""
 Printed = Callable[..., str]
 
 
@@ -99,7 +104,7 @@ def test_what_people_write_stays() -> None:
     ids=lambda words: " ".join(words).replace(HOSTILE, "HOSTILE"),
 )
 def test_words_of_the_command_line(printed: Printed, words: list[str]) -> None:
-    text = printed(*words)
+    text = DRAWN.sub("", printed(*words))
     assert "[31mred" in text.casefold()
     assert all(sign.isprintable() or sign == "\n" for sign in text)
 
@@ -198,14 +203,14 @@ def test_how_long_it_takes_still_is_reckoned_from_the_share_that_is_done(printed
 
     text = printed(function=work)
     for words in ("0 s: one", "6 s, about 18 s left: one", "0 s: two", "3 s, about 1 s left: two"):
-        assert (words in re.sub(r"\x1b\[[\d;?]*[a-zA-Z]", "", text)) is Stream.terminal
+        assert (words in DRAWN.sub("", text)) is Stream.terminal
 
 
 @pytest.mark.parametrize(
     ("share", "seconds", "said"),
     [
         (0.0, 5.0, "5 s"),
-        (0.01, 5.0, "5 s"),
+        (0.04, 5.0, "5 s"),
         (0.5, 0.9, "1 s"),
         (0.5, 50.0, "50 s, about 50 s left"),
         (0.1, 99.0, "99 s, about 15 min left"),
@@ -234,3 +239,21 @@ def test_the_commands_that_take_long_say_on_a_terminal_how_far_they_are(
     monkeypatch.setattr(runner, "run", run)
     text = printed("test", "jscc")
     assert ("making the programs" in text and "a drive" in text and "75 %" in text) is Stream.terminal
+
+    def made(*_: object, tell: Callable[[str], None]) -> dict[str, str]:
+        tell(build.PAGES)
+        return {}
+
+    monkeypatch.setattr(build, "files", made)
+    text = printed("build", "jscc", "--to", "siemens")
+    assert all(words in text for words in ("0 %", "the maps", "50 %", "the pages")) is Stream.terminal
+
+    def compiled(*given: Any) -> NoReturn:
+        given[-1](0.5)
+        raise Refused("no more")
+
+    monkeypatch.setattr(probe, "compiled", compiled)
+    Path("my.st").touch()
+    text = printed("run", "my.st")
+    assert all(words in text for words in ("the maps", "75 %", "compiling my.st")) is Stream.terminal
+    assert DRAWN.sub("", text).splitlines()[-1] == "no more"

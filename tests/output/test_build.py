@@ -27,10 +27,14 @@ def wanted() -> dict[str, str]:
     return build.files(collection.read([EXAMPLE]), BOTH)
 
 
-def test_two_builds_are_equal_wherever_the_map_is(wanted: dict[str, str], tmp_path: Path) -> None:
+def test_two_builds_are_equal_wherever_the_map_is_and_say_what_they_make(
+    wanted: dict[str, str], tmp_path: Path
+) -> None:
     elsewhere = tmp_path / "example.yaml"
     elsewhere.write_bytes(EXAMPLE.read_bytes())
-    assert build.files(collection.read([elsewhere]), BOTH) == wanted
+    said: list[str] = []
+    assert build.files(collection.read([elsewhere]), BOTH, tell=said.append) == wanted
+    assert said == [build.BLOCKS, build.PAGES, "iec61131"]
 
 
 def test_a_language_left_out_costs_nothing() -> None:

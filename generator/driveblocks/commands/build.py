@@ -3,12 +3,14 @@
 import contextlib
 import sys
 from collections.abc import Iterator, Mapping, Sequence
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 from click.core import ParameterSource
 
+from driveblocks import console
 from driveblocks.commands import FILE, MAPS, refuse
 from driveblocks.platforms import TARGETS
 
@@ -81,9 +83,17 @@ def _planned(folder: Path, maps: tuple[str, ...], asked: "Wanted") -> "Plan":
     from driveblocks.maps import catalog
     from driveblocks.output import build
 
-    with _told(folder):
-        made = click.get_current_context().obj  # another output, as a test may want it
-        return build.plan(folder, catalog.chosen(maps), asked, made or build.files)
+    made = click.get_current_context().obj  # another output, as a test may want it
+    steps = ["the maps", build.BLOCKS, build.PAGES, *asked.targets]
+    with _told(folder), contextlib.closing(console.Bar(console.terminal("stderr"))) as bar:
+
+        def tell(name: str) -> None:
+            if name not in steps:  # a target that the folder was built for before
+                steps.append(name)
+            bar.show(steps.index(name), len(steps), name)
+
+        tell(steps[0])
+        return build.plan(folder, catalog.chosen(maps), asked, made or partial(build.files, tell=tell))
 
 
 def _carried_out(folder: Path, maps: tuple[str, ...], asked: "Wanted", force: bool) -> "Plan":

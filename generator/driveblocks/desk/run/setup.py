@@ -3,7 +3,7 @@
 import difflib
 import sys
 from collections.abc import Callable, Iterator
-from contextlib import ExitStack, suppress
+from contextlib import ExitStack, closing, suppress
 from dataclasses import replace
 from pathlib import Path
 
@@ -63,11 +63,12 @@ class Setup:
         self._departure = Departure(LEAVE_S * self._pause)
         self._stack = ExitStack()
         self._path = demo.path() if options.demo else options.program or Path()
-        if console.terminal().is_terminal:
-            console.write(f"{self.label}  compiling {file_name(self._path.name)}")
-        self._maps = source.asked(options.maps, [one.name for one in words(options.simulate)])
-        name = file_name(catalog.shown(self._path))
-        self._loaded = probe.compiled(name, files.text(self._path), self._maps, options.name)
+        with closing(console.Bar(console.terminal())) as bar:
+            bar.show(0, 2, "the maps")
+            self._maps = source.asked(options.maps, [one.name for one in words(options.simulate)])
+            self._loaded = self._compiled(
+                lambda share: bar.show(1 + share, 2, f"compiling {file_name(self._path.name)}")
+            )
         self.probe = probe.probed(self._loaded, self._scan_us, max(FIRST_US, self._watchdog_us))
         """The program after one scan, without a port: what `permission` asks a person about."""
         self._drives = [] if options.tcp or options.port else self._simulates()
@@ -76,6 +77,10 @@ class Setup:
         self._session = self._made()
         self._session.play = self._play()
         self._records()
+
+    def _compiled(self, tell: Callable[[float], None]) -> source.Loaded:
+        name = file_name(catalog.shown(self._path))
+        return probe.compiled(name, files.text(self._path), self._maps, self._options.name, tell)
 
     def _limit(self) -> int:
         if self._options.watchdog is None:
