@@ -9,12 +9,14 @@ from xml.etree import ElementTree
 import pytest
 from rich.console import Console
 from tests.desk.run.desk import Desk
+from tests.simulator.talk import MAPS
 
 from driveblocks import console
 from driveblocks.desk import screen
 from driveblocks.desk.record import Timing, Trace
-from driveblocks.desk.run.look import look
+from driveblocks.desk.run.look import _why, look
 from driveblocks.desk.seen import Seen, View
+from driveblocks.render.reasons import REASONS, by_name
 
 
 def views() -> Iterator[View]:
@@ -49,7 +51,7 @@ def test_lines_say_what_has_changed_each_with_whose_port_it_is(capsys: pytest.Ca
         "REAL PORT    0.1 s  Motor.CommOk = FALSE",
     ]
     assert said[4] == "REAL PORT    6.0 s  Motor 20.0 Hz forward, at speed; runs as asked"
-    assert "Motor 0.0 Hz fault 3; fault: see FaultCode" in said[7]
+    assert "Motor 0.0 Hz fault 3; Overcurrent" in said[7]
     assert "Motor STOP OVERDUE; the drive has stopped answering" in "\n".join(said[8:])
     assert all(line.startswith("REAL PORT ") for line in said)
 
@@ -94,12 +96,77 @@ def test_a_wide_terminal_has_room_for_a_plot_of_the_last_seconds() -> None:
 def test_a_long_name_of_a_fault_and_of_a_drive_are_read_whole_at_80_columns() -> None:
     drawn = io.StringIO()
     fault, drive = "fault 10 Motor thermal overload protection", "Conveyor3.Motor"
-    seen = Seen(drive, 247, fault, -50.0, 400.0, "123456/123456/0")
-    heading = screen.Heading("SIMULATED", "my.st", real=False, remark="heard/answered/refused")
+    seen = Seen(drive, 247, fault, -50.0, 400.0, "123456 requests heard", "look at it", 400.0)
+    heading = screen.Heading("SIMULATED", "my.st", real=False)
     terminal = Console(file=drawn, width=80)
     terminal.print(*screen._parts(heading, View(0, (seen,), {}, {}), screen.Plots(terminal)))
-    for word in (*fault.split(), drive, "-50.0", "400.0", *seen.why.split(), *heading.remark.split()):
+    for word in (*fault.split(), drive, "-50.0", "400.0", f"{seen.why} - {seen.remedy}"):
         assert word in drawn.getvalue()
+    assert max(map(len, drawn.getvalue().splitlines())) <= 80
+
+
+@pytest.mark.parametrize(
+    ("hertz", "asked", "most", "drawn", "plain"),
+    [
+        (0.0, 40.0, 50.0, "░░░░░░░░░░░░░░░░····", "----------------...."),
+        (-25.0, -40.0, 50.0, "██████████░░░░░░····", "##########------...."),
+        (40.0, 20.0, 50.0, "████████▓▓▓▓▓▓▓▓····", "########++++++++...."),
+        (70.0, 50.0, 50.0, "████████████████████", "####################"),
+        (None, 20.0, 50.0, "", ""),
+        (20.0, 20.0, 0.0, "", ""),
+    ],
+)
+def test_a_bar_shows_the_speed_and_what_is_asked_as_a_share_of_the_maximum(
+    hertz: float | None, asked: float, most: float, drawn: str, plain: str
+) -> None:
+    seen = Seen("Motor", 7, "forward", asked, hertz, "", most_hz=most)
+    for encoding, bar in (("utf-8", drawn), ("ascii", plain)):
+        terminal = Console(file=io.TextIOWrapper(io.BytesIO(), encoding=encoding))
+        assert screen.Plots(terminal).bar(seen) == bar
+
+
+@pytest.mark.parametrize(("height", "said"), [(24, True), (14, False)])
+def test_without_room_only_what_is_to_be_done_is_said_of_a_drive(height: int, said: bool) -> None:
+    drawn = io.StringIO()
+    fine, bad = Seen("A", 1, "forward", 9.0, 9.0, "runs as asked"), Seen("B", 2, "no reply", 9.0, None, "gone", "look")
+    terminal = Console(file=drawn, width=80, height=height)
+    view = View(0, (fine, bad, fine), {}, {})
+    terminal.print(*screen._parts(screen.Heading("SIMULATED", "my.st", real=False), view, screen.Plots(terminal)))
+    assert ("runs as asked" in drawn.getvalue()) is said
+    assert "gone - look" in drawn.getvalue()
+
+
+@pytest.mark.parametrize(
+    ("family", "reason", "fault", "why", "remedy"),
+    [
+        ("SN300G5", "FAULT", 1, "Fuse blown", "remove the cause; clears it: nothing on the bus; reset it at the drive"),
+        (
+            "PF525",
+            "FAULT",
+            12,
+            "Hardware overcurrent",
+            "check the settings: boost A530, voltage of the DC brake; clears it:",
+        ),
+        ("CHF", "FAULT", 4, "fault: see FaultCode", "remove the cause, then a rising FaultReset; with SpeedOnly or"),
+        ("SN300G5", "NO_RESET", 0, "no reset was sent,", "FaultReset was pressed: this drive takes none over the bus"),
+        ("JSCC", "OFFLINE", 3, "the drive has stopped answering", "cable, supply; the counters of the slot say more"),
+        ("JSCC", "READY", 0, "stopped; a rising run or jog pin starts it", ""),
+        ("JSCC", "RAMPING", 0, "on its way to the reference", ""),
+    ],
+)
+def test_a_reason_has_its_remedy_and_a_fault_that_of_its_map(
+    family: str, reason: str, fault: int, why: str, remedy: str
+) -> None:
+    said, does = _why(MAPS[family], by_name(reason).code, fault)
+    assert said.startswith(why)
+    assert does.startswith(remedy) if remedy else not does
+
+
+def test_what_is_said_on_a_screen_has_no_marks_of_a_page() -> None:
+    for drive in MAPS.values():
+        for reason in REASONS:
+            assert not re.search(r"[`\]\[]", _why(drive, reason.code, 0)[1])
+    assert _why(MAPS["JSCC"], 99, 0) == ("reason 99", "")
 
 
 def test_frames_that_were_not_sent_stand_in_the_table() -> None:

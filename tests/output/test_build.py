@@ -27,7 +27,7 @@ def wanted() -> dict[str, str]:
     return build.files(collection.read([EXAMPLE]), BOTH)
 
 
-def test_two_builds_are_equal_wherever_the_map_is_and_say_what_they_make(
+def test_two_builds_are_equal_wherever_the_map_is_and_tell_what_they_make(
     wanted: dict[str, str], tmp_path: Path
 ) -> None:
     elsewhere = tmp_path / "example.yaml"

@@ -13,6 +13,10 @@ class Seen:
     asked_hz: float
     hertz: float | None
     why: str
+    remedy: str = ""
+    """What a person does about it; empty for nothing, or to wait."""
+    most_hz: float = 0.0
+    """Its maximum; 0.0 where that is not known."""
 
 
 @dataclass(frozen=True)

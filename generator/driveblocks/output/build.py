@@ -23,7 +23,7 @@ SHOWN = 20
 """Files that a refusal names; the rest are counted."""
 
 
-def files(
+def files(  # noqa: PLR0913, PLR0917 - what is made of what, for what, and who is told of it
     sources: list[Source],
     languages: list[Language],
     targets: Collection[str] = (CANONICAL,),
