@@ -1,5 +1,6 @@
 """What a person sees and keeps of a run: lines, a live table, a trace and a picture, each with whose port it was."""
 
+import csv
 import io
 import re
 from collections.abc import Iterator
@@ -13,10 +14,12 @@ from tests.simulator.talk import MAPS
 
 from driveblocks import console
 from driveblocks.desk import screen
-from driveblocks.desk.record import Timing, Trace
-from driveblocks.desk.run.look import _why, look
+from driveblocks.desk.record import Trace
+from driveblocks.desk.run.look import PINS, _why, look
+from driveblocks.desk.run.picture import Timing
 from driveblocks.desk.seen import Seen, View
 from driveblocks.render.reasons import REASONS, by_name
+from structured_text.engines.engine import Value
 
 
 def views() -> Iterator[View]:
@@ -185,22 +188,98 @@ def test_a_trace_has_a_row_for_every_change() -> None:
     assert file.getvalue() == "# SIMULATED, my.st\nms,A,B\n0,0,1\n20,1,1\n30,1,1.5\n"
 
 
-def test_a_picture_has_a_lane_for_each_variable_and_whose_port_it_was() -> None:
-    timing = Timing(("A", "B<1>"), "SIMULATED, my.st")
-    for at in range(0, 3_000_001, 10_000):
-        timing.add(at, {"A": at >= 1_000_000, "B<1>": at / 100_000})
-    root = ElementTree.fromstring(timing.svg())  # noqa: S314 - our own
-    space = "{http://www.w3.org/2000/svg}"
-    texts = [each.text for each in root.iter(f"{space}text")]
-    assert texts[0] == "SIMULATED, my.st"
-    assert {"A", "B<1>", "30", "0 s", "3 s"} <= set(texts)
-    lanes = [each.get("points", "").split() for each in root.iter(f"{space}polyline")]
-    # low until 1 s, a third of the way; then high
-    assert lanes[0] == ["200.0,68.0", "456.7,68.0", "456.7,42.0", "970.0,42.0", "970.0,42.0"]
+def test_a_text_in_a_trace_is_a_text_and_one_cell() -> None:
+    file = io.StringIO()
+    trace = Trace(file.write, ("A", "B", "C"), "SIMULATED, my.st")
+    trace.add(0, {"A": b"Ground fault", "B": "过流".encode(), "C": b'at 10 "A", or\xb5', "D": b"not asked for"})
+    rows = file.getvalue().split("\n", 1)[1]
+    assert list(csv.reader(io.StringIO(rows)))[1] == ["0", "Ground fault", "过流", 'at 10 "A", orµ']
+    assert "b'" not in rows
 
 
-def test_a_picture_forgets_what_is_too_much() -> None:
-    timing = Timing(("A",), "SIMULATED", most=10)
+# ------------------------------------------------------------ the picture
+
+
+def pins(reason: str, *true: str, hertz: float | None = 0.0, asked: float = 40.0, state: int = 0) -> dict[str, Value]:
+    """What a drive block shows."""
+    off: dict[str, Value] = dict.fromkeys(PINS, False)
+    return {f"Motor.{name}": value for name, value in (off | dict.fromkeys(true, True) | {
+        "OutputFrequencyHz": hertz or 0.0, "Diagnosis.OutputFrequencyValid": hertz is not None,
+        "SpeedReferenceHz": asked, "MaximumHz": 50.0, "Reason": by_name(reason).code, "FaultCode": 3,
+        "Control.State": state,
+    }).items()}  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def drawn() -> ElementTree.Element:
+    """A motor that is started, runs, is stopped, trips and is lost, as a picture."""
+    timing = Timing({"Motor": MAPS["JSCC"]}, ("Start", "Hz", "B<1>", "Still"), "SIMULATED, my.st")
+    times = (
+        (0, pins("READY", "CommOk", "StopConfirmed", state=1), b"Ground fault"),
+        (10, pins("RUNS", "CommOk", "Running", "AtSpeed", hertz=40.0, state=4), b"Ground fault"),
+        (20, pins("RELEASED", "CommOk", "Running", hertz=20.0), b"Ground fault"),
+        (30, pins("FAULT", "CommOk", "Fault", hertz=10.0), "过流".encode()),
+        (35, pins("OFFLINE", hertz=None), "过流".encode()),
+        (35.5, pins("READY", "CommOk", "StopConfirmed", state=1), "过流".encode()),
+        (40, pins("READY", "CommOk", "StopConfirmed", state=1), "过流".encode()),
+    )
+    for at, shown, said in times:
+        own: dict[str, Value] = {"Start": 10 <= at < 20, "Hz": 4.0 * at, "B<1>": said, "Still": 7}
+        timing.add(int(at * 1e6), shown | own)
+    marks = [(10_000_000, "Start := TRUE"), (10_100_000, "Hz := 40"), (30_000_000, "trip OC 7")]
+    return ElementTree.fromstring(timing.svg(marks))  # noqa: S314 - our own
+
+
+SPACE = "{http://www.w3.org/2000/svg}"
+
+
+@pytest.mark.parametrize(("layout", "width"), [("wide", 1120), ("narrow", 390)])
+def test_a_picture_shows_speed_and_reference_state_and_reason_in_words_and_what_happened(
+    drawn: ElementTree.Element, layout: str, width: int
+) -> None:
+    (sheet,) = (each for each in drawn.iter(f"{SPACE}g") if each.get("class") == layout)
+    curves = {
+        kind: [
+            [tuple(map(float, point.split(","))) for point in each.get("points", "").split()]
+            for each in sheet.iter(f"{SPACE}polyline")
+            if each.get("class") == kind
+        ][1:]  # the first is the sample of the legend
+        for kind in ("go", "dashed", "stop")
+    }
+    speed, after = curves["go"]  # nothing is drawn while it is not known
+    zero, one, high = speed[0][1], speed[2][1], speed[4][1]
+    assert [round(zero - one), round(zero - high)] == [67, 34], "40 and 20 Hz of 50 are 0.8 and 0.4 of 84 pixels"
+    assert speed[-1][0] < after[0][0]
+    assert {round(zero - y) for _, y in curves["dashed"][0]} == {67}
+    assert [line[0][0] for line in curves["stop"]] == [speed[4][0]], "where the motor is told to stop"
+    texts = [each.text or "" for each in sheet.iter(f"{SPACE}text")]
+    said = " ".join(texts)
+    for words in (
+        "SIMULATED, my.st", "Motor", "standstill", "fault 3", "Overcurrent", "Ground fault", "过流", "B<1>", "50",
+        "1: at 10.0 s Start := TRUE; Hz := 40", "2: at 30.0 s trip OC 7", "the same all the time: Still = 7",
+    ):  # fmt: skip
+        assert words in said
+    told = [each.text for each in sheet.iter(f"{SPACE}title")]
+    assert {"running, at speed, 10.00 to 20.00 s", "no reply, 35.00 to 35.50 s"} <= set(told)
+    assert ("state a: running, at speed" in texts) is (layout == "narrow")
+    assert "why 14: the drive has stopped answering" in texts, "a band too short for its words has its number"
+    for each in sheet.iter(f"{SPACE}text"):
+        wide = 5.5 * len(each.text or "") if each.get("text-anchor", "start") == "start" else 0
+        assert 0 <= float(each.get("x", "")) <= width - wide
+
+
+def test_a_picture_in_a_narrow_window_has_the_narrow_layout(drawn: ElementTree.Element) -> None:
+    (style,) = drawn.iter(f"{SPACE}style")
+    assert "@media (max-width: 1119px)" in (style.text or "")
+    assert drawn.get("width") == "1120"
+
+
+def test_a_picture_forgets_what_is_too_much_and_draws_no_more_than_pixels_show() -> None:
+    timing = Timing({}, ("A",), "SIMULATED", most=10)
     for at in range(100):
         timing.add(at, {"A": at % 2})
-    assert timing.svg().count(",") < 40
+    assert timing.svg().count(",") < 200
+    timing = Timing({}, ("A",), "SIMULATED")
+    for at in range(20_000):
+        timing.add(1000 * at, {"A": at % 2})
+    assert len(timing.svg()) < 150_000

@@ -14,7 +14,7 @@ from rich.table import Table
 from rich.text import Text
 
 from driveblocks import console
-from driveblocks.desk.seen import Seen, View, spelled
+from driveblocks.desk.seen import Seen, View, is_bad, spelled
 from structured_text.engines.engine import Value
 
 HELP = "Type a number to toggle, NAME := VALUE, or help; q stops all and ends."
@@ -241,7 +241,7 @@ def _row(name: int, cells: Sequence[str | Text], style: str = "") -> Table:
 
 
 def _style(state: str) -> str:
-    if state.startswith(("fault", "STOP", "no reply")):
+    if is_bad(state):
         return BAD
     return GOOD if state.startswith(("forward", "reverse", "running")) else ""
 

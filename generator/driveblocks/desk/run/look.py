@@ -1,6 +1,7 @@
 """A look at a running program: its drives, and the variables that a person names."""
 
 import re
+from collections.abc import Mapping
 
 from driveblocks.desk.run.controller import Controller
 from driveblocks.desk.run.wiring import DriveBlock
@@ -8,11 +9,12 @@ from driveblocks.desk.seen import Seen, View
 from driveblocks.maps.model import Drive
 from driveblocks.meaning import advice
 from driveblocks.meaning.words import words
-from driveblocks.render.reasons import REASONS
+from driveblocks.render.reasons import REASONS, STATES
 from structured_text.engines.embedded.certainty import known
 from structured_text.engines.engine import Value
 
 _STARTING = {reason.code for reason in REASONS if reason.name in ("STARTING", "RAMPING", "RUNS")}
+_STOPPING = next(code for code, (name, _) in enumerate(STATES) if name == "stopping")
 _REASONS = {reason.code: reason for reason in REASONS}
 _NOTHING = ("nothing", "wait")
 _LINK = re.compile(r"\[([^]]*)]\([^)]*\)")
@@ -26,12 +28,17 @@ def look(controller: Controller, names: tuple[str, ...], at_us: int, port_error:
 
 
 def _seen(controller: Controller, block: DriveBlock) -> Seen:
-    pin = {name: controller.instance[f"{block.path}.{name}"] for name in _PINS}
-    hertz, drive = known(pin["OutputFrequencyHz"], float), controller.drive(block)
+    pin = {name: controller.instance[f"{block.path}.{name}"] for name in PINS}
+    return seen(block.path, controller.drive(block), controller.unit(block), pin)
+
+
+def seen(name: str, drive: Drive, unit: int, pin: Mapping[str, Value]) -> Seen:
+    """A drive by the PINS of its block."""
+    hertz = known(pin["OutputFrequencyHz"], float)
     why, remedy = _why(drive, known(pin["Reason"], int), known(pin["FaultCode"], int))
     return Seen(
-        name=block.path,
-        unit=controller.unit(block),
+        name=name,
+        unit=unit,
         state=_state(pin, drive),
         asked_hz=known(pin["SpeedReferenceHz"], float),
         hertz=hertz if pin["Diagnosis.OutputFrequencyValid"] else None,
@@ -60,14 +67,14 @@ def _plain(text: str) -> str:
     return _LINK.sub(r"\1", text).replace("`", "")
 
 
-_PINS = (
+PINS = (
     "CommOk", "Running", "Reverse", "AtSpeed", "Fault", "FaultCode", "StopConfirmed", "StopOverdue",
     "OutputFrequencyHz", "Diagnosis.OutputFrequencyValid", "SpeedReferenceHz", "MaximumHz", "Reason",
-    "Control.KnowsDirection",
+    "Control.KnowsDirection", "Control.State",
 )  # fmt: skip
 
 
-def _state(pin: dict[str, Value], drive: Drive) -> str:
+def _state(pin: Mapping[str, Value], drive: Drive) -> str:
     """What a drive does, in a word or two."""
     if not pin["CommOk"]:
         return "STOP OVERDUE" if pin["StopOverdue"] else "no reply"
@@ -78,8 +85,14 @@ def _state(pin: dict[str, Value], drive: Drive) -> str:
     if pin["StopOverdue"]:
         return "STOP OVERDUE"
     if pin["Running"]:
-        way = "reverse" if pin["Reverse"] else "forward" if pin["Control.KnowsDirection"] else "running"
-        return f"{way}, at speed" if pin["AtSpeed"] else f"{way}"
+        return _running(pin)
     if pin["StopConfirmed"]:
         return "standstill"
     return "starting" if pin["Reason"] in _STARTING else "stopping"
+
+
+def _running(pin: Mapping[str, Value]) -> str:
+    way = "reverse" if pin["Reverse"] else "forward" if pin["Control.KnowsDirection"] else "running"
+    if pin["Control.State"] == _STOPPING:
+        return f"{way}, stopping"
+    return f"{way}, at speed" if pin["AtSpeed"] else way

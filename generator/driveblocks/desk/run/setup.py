@@ -21,6 +21,7 @@ from driveblocks.desk.run.drives import Named, named, of_program, told, words
 from driveblocks.desk.run.options import Options
 from driveblocks.desk.run.options import wrong as mistakes_of
 from driveblocks.desk.run.permission import strangers
+from driveblocks.desk.run.picture import Timing
 from driveblocks.desk.run.play import Play
 from driveblocks.desk.run.session import Result, Session
 from driveblocks.desk.run.simulated import Simulation
@@ -189,12 +190,16 @@ class Setup:
 
     def _records(self) -> None:
         """Open what is to be recorded. Raises Refused."""
-        where, names = f"{self.label}, {file_name(self._path.name)}", self._session.recorded
-        ways = (self._options.trace, recorder.trace), (self._options.picture, recorder.picture)
+        where, session, waits = f"{self.label}, {file_name(self._path.name)}", self._session, self._options.fast
         try:
-            for path, way in ways:
-                if path is not None:
-                    self._session.recorders.append(way(path, names, where, waits=self._options.fast))
+            if path := self._options.trace:
+                session.recorders.append(recorder.trace(path, session.recorded, where, waits=waits))
+            if path := self._options.picture:
+                program = session.controller
+                drives = {each.path: program.drive(each) for each in program.wiring.drives}
+                timing = Timing(drives, self._options.show or program.wiring.inputs, where)
+                session.recorders.append(recorder.picture(path, timing, session.marks, waits=waits))
+                session.recorded = tuple(dict.fromkeys((*session.recorded, *timing.needs)))
         except OSError as error:
             raise Refused(f"{file_name(error.filename)}: {error.strerror}") from None
 
