@@ -21,6 +21,7 @@ from structured_text.engines.engine import Source as Text
 
 GENERIC = "every drive"
 """How the blocks are called that every drive shares."""
+READING = "reading the blocks"
 LARGE = tuple(f"Line{slots}" for slots in library.LINE_SIZES)
 """What the names of blocks end with that only hand from one block to the next, slot by slot; no rule is about them."""
 
@@ -79,6 +80,7 @@ def proved(
     sources: Sequence[Text], subjects: Mapping[str, Sequence[Subject]], tell: Tell = lambda *_: None
 ) -> Iterator[Proved]:
     """The proofs of each unit's subjects; parts that they name are proved elsewhere. UnsupportedError, CheckError."""
+    tell(0, 1, READING)
     asked = [(unit, each) for unit, some in subjects.items() for each in some]
     named = {name for _, each in asked for name in each.inside.values()} - {each.block for _, each in asked}
     parts = [each for each in rules.shared() if each.block in named]
