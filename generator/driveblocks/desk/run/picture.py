@@ -69,8 +69,12 @@ class Track:
         self.asked = Changes[float](self.most)
         self.states = Changes[str](self.most)
         self.reasons = Changes[tuple[int, str]](self.most)
+        self._before: Mapping[str, Value] = {}
 
     def add(self, at_us: int, pin: Mapping[str, Value]) -> None:
+        if pin == self._before:
+            return
+        self._before = pin
         now = seen("", self.drive, 0, pin)
         self.hertz.add(at_us, None if now.hertz is None else abs(now.hertz))
         self.asked.add(at_us, abs(now.asked_hz))
