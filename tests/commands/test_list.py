@@ -72,7 +72,8 @@ def test_every_shipped_drive_is_listed_and_no_word_of_its_family_is_broken_at_80
     drives = json.loads(CliRunner().invoke(app, ["list", "--json"]).stdout)
     assert [drive["drive"] for drive in drives] == [path.stem for path in catalog.shipped()]
     shown = CliRunner().invoke(app, ["list"], env={"COLUMNS": "80"}).stdout.partition("\n\n")[0].split()
-    assert {word for drive in drives for word in drive["family"]["en"].split()} <= set(shown)
+    words = {word for drive in drives for part in ("vendor", "family") for word in drive[part]["en"].split()}
+    assert words <= set(shown)
     assert {"registers", "faults", "frames"} <= set(shown)
 
 
