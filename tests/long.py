@@ -82,6 +82,11 @@ RUNS = {
         "an hour",
         ("tests.shapes.life --store build/drawn.jsonl", "tests.shapes.life --lies --count 50"),
     ),
+    "plants": Run(
+        "200 plants drawn at random, each good by the rules of plants (FIRST)",
+        "some minutes",
+        ("tests.plant.long --first {FIRST}",),
+    ),
     "matrix": Run(
         "every mode x event x state on second models of the drives, four times, and random walks (TIMES)",
         "an hour",

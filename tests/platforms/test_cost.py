@@ -10,7 +10,7 @@ from tests.blocks.toolchains import COMPILER, FOUND, UNIT, run, translate
 from tests.platforms.stock import canon, made, volumes
 
 from driveblocks.platforms import EXPORTS
-from driveblocks.platforms.cost import CODE_KIB, FAMILY_KIB
+from driveblocks.platforms.cost import CODE_KIB, CPU_KB, FAMILY_KIB
 from driveblocks.platforms.openplc.writer import write
 
 BLOCKS = Path(__file__).parents[2] / "blocks"
@@ -69,6 +69,11 @@ def test_the_page_of_memory_says_how_many_bytes_a_line_takes(slots: int, drives:
     said = int(row.split(" | ")[{1: 1, 4: 2, 8: 3}[drives]].strip(" |").replace(",", ""))
     buffers = size_of("MB_Adu") + size_of("MB_LineFrame") + slots * size_of("MB_Slot")
     assert said == pytest.approx(kept(f"MB_ByteLine{slots}") + buffers + drives * kept("PF4_Drive"), rel=0.05)
+
+
+def test_the_page_of_memory_says_what_each_controller_has() -> None:
+    names, sizes = re.findall(r"^\| (?:`cpu`|work memory, kB) \| (.*) \|$", PAGE.read_text("utf-8"), re.MULTILINE)
+    assert {name: int(size) for name, size in zip(names.split(" | "), sizes.split(" | "), strict=True)} == CPU_KB
 
 
 def code(names: list[str], folder: Path) -> int:

@@ -1,6 +1,7 @@
-"""`driveblocks check`: judge maps, and say everything that is wrong with them at once."""
+"""`driveblocks check`: judge maps and plants, and say everything that is wrong with them at once."""
 
 import sys
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
@@ -16,12 +17,13 @@ if TYPE_CHECKING:
 @click.command()
 @MAPS
 def run(maps: tuple[str, ...]) -> None:
-    """Check maps against every rule.
+    """Check maps, or a plant, against every rule.
 
-    All mistakes of each map are listed, as `file:line:col: wrong; right`, and all maps are checked, whatever is wrong
-    with the first. The exit status is 0 if all are good, and 2 if any is bad.
+    All mistakes of each file are listed, as `file:line:col: wrong; right`, and all files are checked, whatever is wrong
+    with the first. A plant that is good can be built, and its motors turn. The exit status is 0 if all are good, and 2
+    if any is bad.
 
-    Example: driveblocks check my_drive.yaml
+    Examples: driveblocks check my_drive.yaml, driveblocks check plant.yaml
     """
     from driveblocks.maps import catalog
 
@@ -29,10 +31,34 @@ def run(maps: tuple[str, ...]) -> None:
     if not names:
         refuse(f"{catalog.folder()}:1:1: there are no maps here; name the maps to check")
     good: list[Source] = []
-    mistakes = [_check(name, good) for name in names]
-    _summary(mistakes)
+    plants = [_is_plant(name) for name in names]
+    mistakes = [_check_plant(name) if plant else _check(name, good) for name, plant in zip(names, plants, strict=True)]
+    _summary(mistakes, "file" if any(plants) and not all(plants) else "plant" if any(plants) else "map")
     if any(mistakes):
         sys.exit(2)
+
+
+def _is_plant(name: str) -> bool:
+    from driveblocks.maps import catalog
+    from driveblocks.plant.word import is_plant
+
+    return catalog.is_path(name) and is_plant(Path(name))
+
+
+def _check_plant(name: str) -> int:
+    """Check one plant; print what came out and return the number of mistakes."""
+    from driveblocks.maps.problem import MapError
+    from driveblocks.plant.check import judged
+
+    try:
+        found = judged(Path(name))
+    except MapError as error:
+        click.echo(error, err=True)
+        return len(error.problems)
+    click.echo(f"{file_name(name)}: good: {found.held}")
+    for each in found.warnings:
+        click.echo(f"{file_name(each.file)}:{each.line}:{each.column}: warning: {each.wrong}; {each.right}")
+    return 0
 
 
 def _check(name: str, good: "list[Source]") -> int:
@@ -74,15 +100,14 @@ def _held(drive: "Drive") -> str:
     return ", ".join(f"{number} {kind.removesuffix('s') if number == 1 else kind}" for kind, number in kinds.items())
 
 
-def _summary(mistakes: list[int]) -> None:
+def _summary(mistakes: list[int], kind: str) -> None:
     good, bad = mistakes.count(0), len(mistakes) - mistakes.count(0)
     if bad:
-        click.echo(
-            f"{bad} of {_maps(len(mistakes))} bad, {sum(mistakes)} mistake{'s' * (sum(mistakes) != 1)}", err=True
-        )
+        total = _counted(sum(mistakes), "mistake")
+        click.echo(f"{bad} of {_counted(len(mistakes), kind)} bad, {total}", err=True)
     else:
-        click.echo(f"{_maps(good)} good")
+        click.echo(f"{_counted(good, kind)} good")
 
 
-def _maps(number: int) -> str:
-    return f"{number} map{'s' * (number != 1)}"
+def _counted(number: int, kind: str) -> str:
+    return f"{number} {kind}{'s' * (number != 1)}"

@@ -6,11 +6,11 @@ from typing import Any
 
 import click
 
-from driveblocks.commands import FILE
+from driveblocks.commands import FILE, refuse
 
 
 @click.command()
-@click.argument("map", metavar="MAP", help="The drive's map, by name or path.")
+@click.argument("map", metavar="[MAP]", required=False, help="The drive's map, by name or path; else of a plant.")
 @click.option("--port", metavar="DEVICE", help="A serial port, such as COM3 or /dev/ttyUSB0: a REAL PORT.")
 @click.option("--tcp", metavar="HOST:PORT", help="Serial bytes over TCP: a REAL PORT, or `driveblocks simulate`.")
 @click.option("--rate", type=int, metavar="RATE", help="Try this bit rate only; else those of the map.")
@@ -20,7 +20,13 @@ from driveblocks.commands import FILE
 @click.option("--label", default="Drive1", metavar="NAME", help="What the drive is called in the machine, and in FILE.")
 @click.option("--who", default="", metavar="NAME", help="Who is there, for FILE and its report.")
 @click.option("--skip", multiple=True, metavar="STEP", help="Skip plate, keypad, measure or gaps; may be repeated.")
-@click.option("--file", type=FILE, default=Path("site.yaml"), metavar="FILE", help="Where what was found is kept.")
+@click.option(
+    "--file",
+    type=FILE,
+    default=Path("site.yaml"),
+    metavar="FILE",
+    help="Where what was found is kept; of a plant, map, rate, format and unit of the label are taken, too.",
+)
 @click.option("--replace", is_flag=True, help="Replace what FILE has of this label.")
 def run(**words: Any) -> None:
     """Find and check a new drive; nothing is written to it.
@@ -28,8 +34,24 @@ def run(**words: Any) -> None:
     Disconnect the PLC first, and leave one drive on the line. Nothing is sent before 60 s of silence and a typed word.
     Enter skips a question. The exit status is 0 if all steps came to their end, 1 if not, 2 for bad input.
 
-    Example: driveblocks commission chf --port /dev/ttyUSB0 --label Pump
+    Examples: driveblocks commission chf --port /dev/ttyUSB0 --label Pump,
+    driveblocks commission --file plant.yaml --label P1 --port /dev/ttyUSB0
     """
     from driveblocks.desk.site import hour
 
+    words |= _of_plant(words)
+    if words["map"] is None:
+        refuse(f"name the map, or a drive of a plant: --file plant.yaml --label P1; {words['file']} is no plant")
     sys.exit(1 if hour.run(hour.Words(**words), input).ended else 0)
+
+
+def _of_plant(words: dict[str, Any]) -> dict[str, Any]:
+    """What a plant says of the drive, where the words do not. Raises Refused."""
+    from driveblocks.plant import word
+
+    if not word.is_plant(words["file"]):
+        return {}
+    found = word.drive(words["file"], words["label"])
+    way = found.way
+    said = {"map": found.word, "rate": way.rate, "form": way.form, "mode": way.mode, "unit": found.motor.unit}
+    return {key: value for key, value in said.items() if words[key] is None}

@@ -1,11 +1,14 @@
 """`driveblocks line`: how fast a line is and how late its stops are, before anything is bought."""
 
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
-from driveblocks.commands import FILE, echo_json, only_over, write
+from driveblocks.commands import FILE, echo_json, only_over, refuse, write
+
+if TYPE_CHECKING:
+    from driveblocks.desk.site.line import Line
 
 PICTURE = only_over(rb"<svg [^>]*>\s*<title>One round of polls: ", "line --picture")
 
@@ -14,8 +17,8 @@ PICTURE = only_over(rb"<svg [^>]*>\s*<title>One round of polls: ", "line --pictu
 @click.argument(
     "line",
     nargs=-1,
-    metavar="DRIVE[@UNIT]...|PROGRAM.st",
-    help="Drives and unit addresses (else the next free), or a program.",
+    metavar="DRIVE[@UNIT]...|PROGRAM.st|PLANT.yaml",
+    help="Drives and unit addresses (else the next free), a program, or a plant.",
 )
 @click.option("--program", "name", metavar="NAME", help="Which PROGRAM, where the file has several.")
 @click.option("--map", "maps", multiple=True, metavar="MAP", help="A map of your own that the program uses.")
@@ -49,6 +52,8 @@ def run(picture: Path | None, json: bool, **words: Any) -> None:
     its StaleMs, or what feeds a watchdog can wait for more than two thirds of its time, or if no block could see such
     a mix-up; 2 for bad input.
 
+    Of a plant it computes each line, as the file says it.
+
     Example: driveblocks line chf@1 chf@2 jscc@3 --rate 19200 --stop-within 500ms --picture round.svg
     """
     import sys
@@ -58,14 +63,35 @@ def run(picture: Path | None, json: bool, **words: Any) -> None:
     from driveblocks.desk.site import picture as pictures
     from driveblocks.desk.site.line import figures
 
-    line = asked.line(asked.Words(**words))
-    tried = [figures(line, rate) for rate in line.rates()]
-    own = next(each for each in tried if each.rate == line.rate)
+    plant = _plant(words, pictured=picture is not None)
+    lines = plant or {"": asked.line(asked.Words(**words))}
+    tried = {name: [figures(line, rate) for rate in line.rates()] for name, line in lines.items()}
+    own = [next(each for each in some if each.rate == each.line.rate) for some in tried.values()]
     if picture is not None:
-        write(picture, pictures.drawn(own))
+        write(picture, pictures.drawn(own[0]))
     if json:
-        echo_json(report.plain(tried))
+        plain = {name: report.plain(some) for name, some in tried.items()}
+        echo_json(plain if plant else plain[""])
     else:
-        console.write(*report.tables(tried))
-    untold = [each for each in report.mistaken(line) if not each.told]
-    sys.exit(1 if own.broken or untold else 0)
+        for at, (name, some) in enumerate(tried.items()):
+            console.write(*[*[""] * bool(at), f"Line {name}"] * bool(plant), *report.tables(some))
+    untold = [each for line in lines.values() for each in report.mistaken(line) if not each.told]
+    sys.exit(1 if untold or any(each.broken for each in own) else 0)
+
+
+def _plant(words: dict[str, Any], *, pictured: bool) -> "dict[str, Line]":
+    """The lines of a plant; none where the words name no plant. Ends with status 2."""
+    from driveblocks.plant.check import spoken
+    from driveblocks.plant.word import is_plant
+
+    named, usual = words["line"], {"scan": "10ms", "maps": (), "device": (), "ascii": False, "keeps_silence": False}
+    if not any(each.lower().endswith((".yaml", ".yml")) and is_plant(Path(each)) for each in named):
+        return {}
+    if len(named) > 1:
+        refuse("name one plant, one program, or drives")
+    if given := [key for key, value in words.items() if key != "line" and value != usual.get(key)]:
+        refuse(f"--{given[0].replace('_', '-')} is for a program or named drives, not for a plant")
+    _, lines = spoken(Path(named[0]))
+    if pictured and len(lines) > 1:
+        refuse(f"{len(lines)} lines ({', '.join(lines)}); --picture draws one: name its drives")
+    return lines

@@ -1,28 +1,63 @@
-"""`driveblocks new`: a first map to go on from."""
+"""`driveblocks new`: a first map, or a first plant, to go on from."""
 
+import sys
 from pathlib import Path
 
 import click
 
 from driveblocks.commands import FILE, refuse, write
+from structured_text.visible import file_name
 
 
 @click.command()
-@click.argument("prefix", metavar="PREFIX", help="What the names of the blocks start with, such as SN300G5.")
-@click.option("-o", "--output", type=FILE, metavar="FILE", help="File to write; without it, PREFIX in small letters.")
-def run(prefix: str, output: Path | None) -> None:
-    """Write a first map, with comments that say what to replace.
+@click.argument(
+    "name",
+    metavar="PREFIX|NAME",
+    help="What the names of the blocks start with, such as SN300G5; or what a plant is called.",
+)
+@click.option("--plant", is_flag=True, help="Write a plant instead of a map.")
+@click.option(
+    "-o", "--output", type=FILE, metavar="FILE", help="File to write; else PREFIX in small letters, or plant.yaml."
+)
+def run(name: str, plant: bool, output: Path | None) -> None:
+    """Write a first map, or a first plant, with comments that say what to replace.
 
-    It is valid as it is, so every mistake that `driveblocks check` reports later is yours. A file that exists
-    is never touched: the exit status is 2.
+    It is valid as it is, so every mistake that `driveblocks check` reports later is yours. On a terminal a plant is
+    asked for line by line. A file that exists is never touched: the exit status is 2.
 
-    Example: driveblocks new ACME -o acme_100.yaml
+    Examples: driveblocks new ACME -o acme_100.yaml, driveblocks new --plant "Pumping station"
     """
-    path = output or Path(f"{prefix.lower()}.yaml")
-    text = _named(prefix)
+    path = output or Path("plant.yaml" if plant else f"{name.lower()}.yaml")
+    if plant:
+        _plant(name, path)
+        return
+    text = _named(name)
     write(path, text, new=True)
     click.echo(f"{path}: the map of a drive that does not exist; replace every fact by your manual's, then run")
     click.echo(f"driveblocks check {path}")
+
+
+def _plant(name: str, path: Path) -> None:
+    """Write a plant. Ends with status 2 for a name that no program can have."""
+    from driveblocks.plant import draft
+    from driveblocks.plant.model import identifier
+
+    if not identifier(name)[:1].isalpha():
+        refuse("this cannot be the name of a plant; begin it with a letter A to Z")
+    if path.exists():
+        refuse(f"{file_name(path)}: is there already; name another file with -o")
+    alone = not (sys.stdin and sys.stdin.isatty() and sys.stdout.isatty())
+    write(path, draft.skeleton(name) if alone else draft.asked(name, _ask, click.echo), new=True)
+    click.echo(
+        f"{path}: {'a plant with two pumps; replace it by yours' if alone else 'what you have answered'}, then run"
+    )
+    click.echo(f"driveblocks check {path}")
+
+
+def _ask(question: str, usual: str) -> str:
+    """The answer of a person; Enter means the usual one."""
+    answer: str = click.prompt(question, default=usual, show_default=bool(usual))
+    return answer.strip()
 
 
 def _named(prefix: str) -> str:

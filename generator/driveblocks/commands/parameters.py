@@ -12,8 +12,8 @@ from driveblocks.commands import FILE, refuse
 PLACE: tuple[Callable[[Any], Any], ...] = (
     click.option("--port", metavar="DEVICE", help="A serial port, such as COM3 or /dev/ttyUSB0: a REAL PORT."),
     click.option("--tcp", metavar="HOST:PORT", help="Serial bytes over TCP: a REAL PORT, or `driveblocks simulate`."),
-    click.option("--rate", type=int, default=9600, metavar="RATE", help="Bit rate of --port."),
-    click.option("--format", "form", default="8N1", metavar="8N1", help="Data bits, parity, stop bits of --port."),
+    click.option("--rate", type=int, metavar="RATE", help="Bit rate of --port; else of a plant, else 9600."),
+    click.option("--format", "form", metavar="8N1", help="Data bits, parity, stop bits of --port; likewise, else 8N1."),
     click.option("--ascii", is_flag=True, help="MODBUS ASCII instead of RTU."),
     click.option("--patience", default="30s", metavar="TIME", help="How long to wait for a line that was lost."),
 )
@@ -30,8 +30,25 @@ def _placed(command: Callable[..., None]) -> Callable[..., None]:
 def run() -> None:
     """Save the registers of a drive, or compare them; it only reads.
 
-    Disconnect the PLC first: two masters on one line damage each other's frames.
+    Disconnect the PLC first: two masters on one line damage each other's frames. A drive of a plant is written as
+    plant.yaml:P1; map, address, rate and format are then those of its file.
     """
+
+
+def _drives(named: tuple[str, ...], words: dict[str, Any]) -> tuple[str, ...]:
+    """The drives as other commands name them; rate and format of a plant are added to the words. Raises Refused."""
+    from driveblocks.maps.problem import Refused
+    from driveblocks.plant import word
+
+    placed = {each: word.drive(*there) for each in named if (there := word.split(each))}
+    ways = {each.way for each in placed.values()}
+    if len(ways) > 1:
+        raise Refused(f"{' and '.join(placed)} are on lines of other rates or formats; save one, then compare it")
+    for way in ways:
+        words["rate"], words["form"] = words["rate"] or way.rate, words["form"] or way.form
+        words["ascii"] = words["ascii"] or way.mode == "ascii"
+    words["rate"], words["form"] = words["rate"] or 9600, words["form"] or "8N1"
+    return tuple(f"{placed[each].word}@{placed[each].motor.unit}" if each in placed else each for each in named)
 
 
 @run.command()
@@ -45,11 +62,13 @@ def save(drive: str, file: Path, **words: Any) -> None:
     when the drive refuses some or has fallen silent, replies come that nobody asked for, or a person has ended it,
     2 for bad input or a drive of another family.
 
-    Example: driveblocks parameters save chf@1 pump.csv --port /dev/ttyUSB0
+    Examples: driveblocks parameters save chf@1 pump.csv --port /dev/ttyUSB0,
+    driveblocks parameters save plant.yaml:P1 p1.csv --port /dev/ttyUSB0
     """
     from driveblocks.desk.site import drives
     from driveblocks.desk.site.reader import LostError
 
+    (drive,) = _drives((drive,), words)
     try:
         told, complete = drives.save(drive, file, drives.Place(**words))
     except LostError as lost:
@@ -77,6 +96,7 @@ def compare(left: str, right: str, everything: bool, own: str | None, **words: A
     from driveblocks.desk.site import drives
     from driveblocks.desk.site.reader import LostError
 
+    left, right = _drives((left, right), words)
     try:
         told, differs = drives.compare((left, right), drives.Place(**words), own, everything=everything)
     except LostError as lost:

@@ -57,12 +57,12 @@ def wanted(drive: Drive, unit: int, rate: int | None, form: str | None, silence_
         raise ValueError(f"the bit rates of this drive are {', '.join(map(str, rates)) or 'not known'}, not {rate}")
     if found.form not in forms:
         raise ValueError(f"the formats of this drive are {', '.join(forms)}, not {form}")
-    if silence_s is not None and (wrong := _no_time(drive, silence_s)):
+    if silence_s is not None and (wrong := no_time(drive, silence_s)):
         raise ValueError(wrong)
     return found
 
 
-def _no_time(drive: Drive, silence_s: Decimal) -> str:
+def no_time(drive: Drive, silence_s: Decimal) -> str:
     """What is wrong with the time of a watchdog."""
     own = watchdog(drive)
     by = setting(drive, own.time.setting) if own and own.time else None

@@ -67,7 +67,7 @@ def _one_of(shape: OneOf, node: Scalar, report: Report, name: str) -> Any:
     if node.plain and not node.text:
         report.add(node.at, f"`{name}` has no value", _right(shape))
         return _BAD
-    near = _nearest(node.text, list(shape.words))
+    near = nearest(node.text, list(shape.words))
     right = INSTEAD.get((name, node.text)) or (f"did you mean `{near}`?" if near else _right(shape))
     report.add(node.at, f"`{name}: {_short(node.text)}` is not allowed", right)
     return _BAD
@@ -131,7 +131,7 @@ def _unknown_keys(known: dict[str, Key], node: Entries, report: Report, name: st
         key = node.entries[text][0]
         if key.refused:
             continue
-        near = _nearest(text, [word for word in known if word not in node.entries])
+        near = nearest(text, [word for word in known if word not in node.entries])
         right = f"did you mean `{near}`?" if near else "known keys: " + ", ".join(known)
         value = node.entries[text][1]
         if " " in text and isinstance(value, Scalar) and value.plain and not value.text:
@@ -141,6 +141,7 @@ def _unknown_keys(known: dict[str, Key], node: Entries, report: Report, name: st
     return meant
 
 
-def _nearest(text: str, words: list[str]) -> str | None:
+def nearest(text: str, words: list[str]) -> str | None:
+    """The word that was probably meant."""
     near = difflib.get_close_matches(text[:40].lower(), words, 1, 0.6)
     return near[0] if near else None

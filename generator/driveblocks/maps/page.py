@@ -22,7 +22,7 @@ _ANY_SOURCE = """
 Every entry with a `source` has these keys, too; a [Register](#register) and a [Fault](#fault) have the first two, and a
 [Frame](#frame) is printed as a whole.
 """
-_HEAD = "| key | must | meaning | example |\n|---|---|---|---|\n"
+HEAD = "| key | must | meaning | example |\n|---|---|---|---|\n"
 
 
 def update(text: str) -> str:
@@ -41,8 +41,8 @@ def skeleton() -> str:
 
 def reference() -> str:
     """Markdown: one table per kind of entry, in the order in which they first appear in a map."""
-    any_source = "".join(_row(key) for key in keys_of(Cited).values())
-    return _KEYS + f"{_ANY_SOURCE}\n{_HEAD}{any_source}" + "".join(_table(cls) for cls in classes())
+    any_source = "".join(row(key) for key in keys_of(Cited).values())
+    return _KEYS + f"{_ANY_SOURCE}\n{HEAD}{any_source}" + "".join(_table(cls) for cls in classes())
 
 
 def classes() -> Iterator[type]:
@@ -60,11 +60,12 @@ def _parts(cls: type) -> list[type]:
 
 def _table(cls: type) -> str:
     purpose = (cls.__doc__ or "").strip().splitlines()[0]
-    rows = "".join(_row(key) for name, key in keys_of(cls).items() if name not in told_last(cls))
-    return f"\n## {cls.__name__}\n\n{purpose}\n\n{_HEAD}{rows}"
+    rows = "".join(row(key) for name, key in keys_of(cls).items() if name not in told_last(cls))
+    return f"\n## {cls.__name__}\n\n{purpose}\n\n{HEAD}{rows}"
 
 
-def _row(key: Key) -> str:
+def row(key: Key) -> str:
+    """A key with its meaning and an example, as a row of a table."""
     example = f"{key.name}: {key.example}".replace("|", "\\|")
     link = _link(key)
     return f"| `{key.name}` | {'yes' if key.required else ''} | {key.doc}{_words(key)}{link} | `{example}` |\n"

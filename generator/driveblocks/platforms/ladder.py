@@ -96,9 +96,10 @@ class _Drawing:
         """Whether a variable, or an output of a block, is a BOOL."""
         if isinstance(value, tree.Name):
             return is_bool(self.declared(value.name))
-        own = {v.name for block in self.program.blocks for v in block.variables}
-        if not isinstance(value, tree.Member) or said(value.base) not in own:  # what is global is a word or a buffer
-            return False
+        kinds = {v.name: v.spec for block in self.program.blocks for v in block.variables}
+        kind = kinds.get(said(value.base)) if isinstance(value, tree.Member) else None
+        if not (isinstance(value, tree.Member) and isinstance(kind, tree.NamedSpec) and kind.name in self.known):
+            return False  # what is global, or in a structure, is drawn as a value
         return any(is_bool(pin) for pin in self.pins(said(value.base))[1] if pin.name == value.name)
 
     def pins(self, instance: str) -> tuple[list[VarDecl], list[VarDecl]]:
@@ -190,7 +191,7 @@ class _Drawing:
         if isinstance(value, tree.Name):
             self.move(target, value.name)
             return
-        if isinstance(value, tree.Literal) and not self.coils:
+        if isinstance(value, tree.Literal) and not (self.coils and isinstance(value.value, bool)):
             number, there = self.value(value.text, self.y)
             self.out(target, number, there, None)
             self.y += 2 * _PITCH

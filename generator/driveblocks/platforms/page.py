@@ -8,7 +8,7 @@ from pathlib import Path
 from driveblocks.platforms import cost
 from driveblocks.platforms.part import SHARED, Shelf, Volume
 from driveblocks.render.environment import ABI, render
-from driveblocks.render.library import CHINESE, FRAMES, LINE2, LINE32, METER, PARAMETERS
+from driveblocks.render.library import CHINESE, FRAMES, LINE2, LINE32, METER, PARAMETERS, PLANT
 from driveblocks.render.motor import SCAN_MS
 from structured_text.language.tree import ArraySpec, FunctionBlock, TypeDecl
 
@@ -21,6 +21,7 @@ WHAT = {
     LINE32: "a line of up to 32 drives",
     PARAMETERS: "reads, writes and stores parameters of a drive",
     METER: "a meter or a sensor on the line; needs `Parameters`",
+    PLANT: "groups with duty and standby, analog inputs, hours and starts",
     FRAMES: "frames without a line, in RTU and ASCII",
     CHINESE: "texts in Chinese",
 }

@@ -103,6 +103,19 @@ class Volume:
         return tuple(part for part in self.parts if not isinstance(part.element, TypeDecl))
 
 
+@dataclass(frozen=True)
+class Own:
+    """Programs of a user's own: parsed, not typed."""
+
+    texts: tuple[Part, ...]
+    ladders: tuple[Part, ...]
+    """What is to be drawn, where the platform has a form for it."""
+    lines: tuple[str, ...]
+    """Names of their serial lines."""
+    scan_ms: int
+    """The interval of the task of the first."""
+
+
 YOURS = "yours"
 """The folder of what is the user's: no update touches it."""
 
@@ -123,8 +136,9 @@ class Shelf:
             yield from _volumes(drive.prefix, [part for part in self.parts if part.folder == folder], drive)
 
     def port(self, platform: str) -> tuple[Volume, ...]:
-        """The blocks of a platform's serial port: parsed, not typed."""
-        parts = list(_read(port.adapter(platform, list(self.languages))))
+        """The blocks of a platform's serial port, with the lines that are here: parsed, not typed."""
+        extras = {part.extra for part in self.parts} | {""}
+        parts = [part for part in _read(port.adapter(platform, list(self.languages))) if part.extra in extras]
         return tuple(_volumes(parts[0].name, parts)) if parts else ()
 
     def motor(self, platform: str, drive: Drive) -> Part:

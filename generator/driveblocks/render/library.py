@@ -11,8 +11,8 @@ from driveblocks.render.drive import drive_block
 from driveblocks.render.environment import render
 from driveblocks.render.text import Language
 
-LINE2, LINE32, PARAMETERS, METER, FRAMES, CHINESE = EXTRAS = (
-    "Line2", "Line32", "Parameters", "Meter", "Frames", "Chinese",
+LINE2, LINE32, PARAMETERS, METER, PLANT, FRAMES, CHINESE = EXTRAS = (
+    "Line2", "Line32", "Parameters", "Meter", "Plant", "Frames", "Chinese",
 )  # fmt: skip
 """What a first motor does not need, each in files of its own, after what it uses."""
 TYPES = ("MB_Adu",)
@@ -45,6 +45,9 @@ CONTROL_BLOCKS = (
 PARAMETER_BLOCKS = ("VFD_ReadParameter", "VFD_WriteParameter", "VFD_Store")
 DEVICE = ("MB_Device", "MB_Float")
 """What is for a meter or a sensor; the block needs some of those."""
+GROUP_TYPES = ("VFD_Counted", "VFD_Member", "VFD_Members")
+GROUP_BLOCKS = ("VFD_Hours", "VFD_Scale", "VFD_Place", "VFD_Group", "VFD_Duty")
+"""What several drives need together: groups, analog inputs, and what is counted."""
 DRIVE_TYPES = ("VFD_Settings", "VFD_Diagnosis", "VFD_Asked", "VFD_Seen")
 LINE_SIZES = {8: "", 2: LINE2, 32: LINE32}
 """How many slots a line can have, that of the first motor first, and the extra that holds it."""
@@ -94,6 +97,8 @@ def generic(languages: list[Language]) -> Iterator[File]:
     yield from _named("vfd", "control", CONTROL_BLOCKS, **texts_of(languages))
     yield from _named("vfd", "control", PARAMETER_BLOCKS, PARAMETERS, least=LEAST_S, **texts_of(languages))
     yield from _named("device", "device", DEVICE, METER, **texts_of(languages))
+    yield from _named("types", "plant", GROUP_TYPES, PLANT)
+    yield from _named("plant", "plant", GROUP_BLOCKS, PLANT)
     for language in languages:
         yield _text_file("vfd", text.reason_texts(language), language)
         yield _text_file("vfd", text.state_texts(language), language)

@@ -93,6 +93,8 @@ class Desk:
     drives: list[SimulatedDrive] = field(default_factory=lambda: [SimulatedDrive(MAPS["JSCC"], 7)])
     free: frozenset[tuple[int, str]] | None = None
     """As in `Controller.connect`; None: the port is simulated."""
+    others: list[SimulatedDrive] = field(default_factory=list)
+    """Of a second line, if the program has one."""
 
     def __post_init__(self) -> None:
         """Wire it."""
@@ -103,15 +105,18 @@ class Desk:
         self.ending = Ending()
         self.session = Session(self.controller, self.clock, self.ending, SCAN_US)
         self.session.watchdog = Watchdog(now_us=lambda: 0)  # the time of this machine is none of its business
-        self.session.connect(self.line, self.free)
+        self.session.connect(self.line, self.free, *self._second(self.others, self.clock))
         self.session.known = self._probed(program)
         self.instance = self.controller.instance
+
+    def _second(self, drives: list[SimulatedDrive], clock: VirtualClock) -> list[Line]:
+        return [Line(Bus(drives, 9600, 10), clock)] if self.others else []
 
     def _probed(self, program: source.Loaded) -> Controller:
         """The program after a scan without a port: a run that ends before its first scan stops the drives of this."""
         probe = Controller(program.library, program.program.name, wired(self.text), program.drives, SCAN_US)
         nobody = Line(Bus([], 19200, 10, ascii_mode=False), VirtualClock())
-        probe.connect(nobody, None)
+        probe.connect(nobody, None, *self._second([], VirtualClock()))
         probe.scan(SCAN_US)
         return probe
 

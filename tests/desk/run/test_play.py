@@ -11,7 +11,7 @@ from driveblocks.bench.simulator.drive import SimulatedDrive
 from driveblocks.desk import scenario
 from driveblocks.desk.bus import Loss
 from driveblocks.desk.run.drives import Named
-from driveblocks.desk.run.play import Play
+from driveblocks.desk.run.play import Play, Plays
 from driveblocks.desk.run.simulated import Simulation
 from driveblocks.maps import catalog
 from driveblocks.modbus.frame import seal
@@ -24,7 +24,8 @@ UNITS = {7: MAPS["JSCC"]}
 def playing(text: str = "", *lines: str) -> Desk:
     """A desk after eight seconds, at which something happens and a person has typed lines at first."""
     desk = Desk()
-    play = desk.session.play = Play(UNITS, scenario.loads(text, "s.yaml", UNITS) if text else ())
+    play = Play(UNITS, scenario.loads(text, "s.yaml", UNITS) if text else ())
+    desk.session.play = Plays([play], {"Motor": (play, 7)})
     play.act = lambda happening: happening.act(desk.drives, Loss())
     for line in lines:
         desk.session.typed.put(line)
@@ -42,6 +43,7 @@ def test_a_scenario_begins_with_the_first_scan_and_is_printed() -> None:
     ("lines", "says"),
     [
         (("t 7",), ["trip 1 7"]),
+        (("t Motor", "power off motor"), ["trip 1 7", "power off 7"]),
         (("d 7", "r 7"), ["power off 7", "clear 7", "power on 7", "reset 7"]),
         (("late  80 ms for 1 s",), ["late 80 ms for 1 s", "late 5 ms"]),
         (("reset 7",), ["reset 7"]),
@@ -72,7 +74,7 @@ def test_what_cannot_happen_is_reported(line: str, says: str) -> None:
 
 def test_a_name_of_the_program_is_none_of_a_scenario() -> None:
     desk = Desk()
-    play = desk.session.play = Play({})
+    play = desk.session.play = Plays([Play({})], {})
     desk.controller.instance["Start"] = False
     assert not play.takes("Start")
     assert play.takes("stop")

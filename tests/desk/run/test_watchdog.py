@@ -184,7 +184,7 @@ def test_a_scan_that_was_given_up_sends_nothing_when_it_goes_on(hanging: Hanging
     desk = hanging.desk
     desk.session.run()
     before, scans = len(desk.line.sent), desk.session.pace.scans
-    desk.controller._mailbox.take = lambda: b"what it wants to send"  # type: ignore[method-assign]  # the program writes, given up
+    desk.controller.lines[0]._mailbox.take = lambda: b"what it wants to send"  # type: ignore[method-assign]  # the program writes, given up
     hanging.release()
     assert (len(desk.line.sent), desk.session.pace.scans) == (before, scans)
     assert desk.drives[0].mode == "standstill"

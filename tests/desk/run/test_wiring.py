@@ -2,7 +2,9 @@
 
 import pytest
 from tests.desk.run.desk import BOX, EXAMPLE, ONE, Desk, loaded, wired
+from tests.simulator.talk import MAPS
 
+from driveblocks.bench.simulator.drive import SimulatedDrive
 from driveblocks.desk.run import wiring
 from driveblocks.desk.run.wiring import DriveBlock, Wiring
 from structured_text.engines.engine import BuildError
@@ -17,30 +19,31 @@ def told(text: str) -> str:
 
 def test_the_bytes_of_a_line_are_program_variables() -> None:
     found = wired(ONE)
-    assert (found.line, found.port, found.rx_count, found.rx_chars, found.tx_chars) == (
+    (line,) = found.lines
+    assert (line.line, line.port, line.rx_count, line.rx_chars, line.tx_chars) == (
         "Bus",
         None,
         "Received",
         "Rx",
         "Tx",
     )
-    assert found.pins == {"ELAPSEDMS": "Elapsed", "PORTLATEMS": "Bus.PORTLATEMS", "PORTERRORID": "Bus.PORTERRORID"}
+    assert line.pins == {"ELAPSEDMS": "Elapsed", "PORTLATEMS": "Bus.PORTLATEMS", "PORTERRORID": "Bus.PORTERRORID"}
     assert found.restart == ("First",)
     assert found.drives == (DriveBlock("Motor", "JSCC"),)
     assert found.inputs == ("Start", "Hz")
 
 
 def test_a_mailbox_of_its_own() -> None:
-    found = wired(BOX)
-    assert (found.line, found.port) == ("Bus", "Box")
-    assert found.pins == {"ELAPSEDMS": "Elapsed", "PORTLATEMS": "Box.LateMs", "PORTERRORID": "Box.ErrorID"}
+    (line,) = wired(BOX).lines
+    assert (line.line, line.port) == ("Bus", "Box")
+    assert line.pins == {"ELAPSEDMS": "Elapsed", "PORTLATEMS": "Box.LateMs", "PORTERRORID": "Box.ErrorID"}
 
 
 def test_the_example_measures_nothing_and_knows_its_first_scan() -> None:
     found = wired(EXAMPLE.read_text(encoding="utf-8"))
     assert [block.path for block in found.drives] == ["Pump1", "Pump2", "Fan"]
     assert found.restart == ()
-    assert found.pins["ELAPSEDMS"] == "ElapsedMs"
+    assert found.lines[0].pins["ELAPSEDMS"] == "ElapsedMs"
 
 
 CONTACT = ONE.replace("END_VAR", "  Contact : VFD_HardStop;\n  Began, Pressed : BOOL;\nEND_VAR").replace(
@@ -96,8 +99,9 @@ END_PROGRAM
 
 def test_what_is_inside_a_block_leads_back_to_the_program() -> None:
     found = wired(INSIDE)
-    assert (found.line, found.rx_count, found.rx_chars) == ("Hall.Line", "Cable.Count", "Cable.Bytes")
-    assert (found.tx_chars, found.pins["ELAPSEDMS"]) == ("Hall.Out", "Time")
+    (line,) = found.lines
+    assert (line.line, line.rx_count, line.rx_chars) == ("Hall.Line", "Cable.Count", "Cable.Bytes")
+    assert (line.tx_chars, line.pins["ELAPSEDMS"]) == ("Hall.Out", "Time")
     assert found.drives == (DriveBlock("Hall.Motor", "CHF"),)
     assert found.inputs == ("Button",)
 
@@ -119,7 +123,7 @@ def shared(text: str) -> str:
 def test_globals_of_a_configuration_are_served_like_the_program_s_own() -> None:
     desk = Desk(shared(ONE)).started()
     found = desk.controller.wiring
-    assert (found.rx_count, found.inputs) == ("Received", ("Start", "Hz"))
+    assert (found.lines[0].rx_count, found.inputs) == ("Received", ("Start", "Hz"))
     assert found.drives == (DriveBlock("Motor", "JSCC"),)
     assert desk.drives[0].mode == "running"
     desk.session.run(0)
@@ -138,14 +142,55 @@ def test_a_drive_that_could_not_be_stopped_is_refused() -> None:
 
 
 def test_a_time_that_the_program_writes_itself_is_left_alone() -> None:
-    found = wired(ONE.replace("  Quotient := 1", "  Elapsed := 10;\n  Quotient := 1"))
-    assert found.pins["ELAPSEDMS"] is None
-    assert found.notes == ()
+    (line,) = wired(ONE.replace("  Quotient := 1", "  Elapsed := 10;\n  Quotient := 1")).lines
+    assert line.pins["ELAPSEDMS"] is None
+    assert line.notes == ()
 
 
 def test_a_time_that_is_no_variable_is_reported() -> None:
-    (note,) = wired(ONE.replace("ElapsedMs := Elapsed", "ElapsedMs := 10")).notes
+    (note,) = wired(ONE.replace("ElapsedMs := Elapsed", "ElapsedMs := 10")).lines[0].notes
     assert str(note).startswith("my.st:20:3: ElapsedMs is no variable: a late scan is not seen;")
+
+
+TWO = ONE.replace(
+    "END_VAR\n",
+    """  Count2 : UINT;
+  Rx2 : MB_Adu;
+  Tx2 : MB_LineFrame;
+  Fan, Pump : CHF_Drive;
+  Bus2 : MB_ByteLine2;
+  Slots2 : MB_Slots2;
+END_VAR
+""",
+).replace(
+    "END_PROGRAM",
+    """  Fan(Enable := TRUE, RunForward := Start, SpeedReferenceHz := Hz, MaximumHz := 50.0, FullScaleHz := 50.0,
+    Address := 7, StopWithinMs := 15000, Slot := Slots2[1]);
+  Bus2(ElapsedMs := Elapsed, BitRate := 9600, Restart := First, RxCount := Count2, RxChars := Rx2, TxChars := Tx2,
+    Slots := Slots2);
+END_PROGRAM""",
+)
+
+
+def test_each_line_has_its_port_and_the_drives_of_its_slots() -> None:
+    found = wired(TWO)
+    assert [(each.line, each.rx_count, [one.path for one in each.drives]) for each in found.lines] == [
+        ("Bus", "Received", ["Motor"]), ("Bus2", "Count2", ["Fan"]),
+    ]  # fmt: skip
+    assert found.inputs == ("Start", "Hz")
+    assert "cannot be seen on which line Fan is" in told(TWO.replace("Slots2[1]", "Slots2[Quotient]"))
+
+
+def test_the_drives_of_two_lines_turn_and_are_stopped_at_the_end() -> None:
+    fan = SimulatedDrive(MAPS["CHF"], 7)
+    desk = Desk(TWO, others=[fan]).scan(3000)
+    desk.instance["Start"] = True
+    desk.scan(4000)
+    assert (desk.drives[0].mode, fan.mode) == ("running", "running")
+    desk.session.run(0)
+    assert desk.session.result is not None
+    assert desk.session.result.stopped == ("Motor", "Fan")
+    assert (desk.drives[0].mode, fan.mode) == ("standstill", "standstill")
 
 
 SECOND = ONE.replace("  Bus :", "  Bus, Other :").replace(
@@ -157,7 +202,7 @@ SECOND = ONE.replace("  Bus :", "  Bus, Other :").replace(
     ("text", "wrong"),
     [
         ("PROGRAM P\nVAR\n  A : INT;\nEND_VAR\n  A := 1;\nEND_PROGRAM\n", "my.st:1:9: P calls no line"),
-        (SECOND, "my.st:22:3: 2 ports (Bus, Other): one port can be served"),
+        (SECOND, "my.st:22:3: Bus and Other share Received; give each line a port of its own"),
         (ONE.replace("RxCount := Received", "RxCount := 0"), "my.st:20:3: RxCount of Bus has no variable"),
         (ONE.replace("  Quotient := 1", "  Received := 0;\n  Quotient := 1"), "the program writes Received"),
         ("TYPE\n  Count : INT;\nEND_TYPE\n", "my.st:1:1: there is no PROGRAM"),
@@ -182,4 +227,4 @@ def test_a_block_that_the_program_brings_takes_the_place_of_the_library_s() -> N
     pins = "VAR_INPUT\n  Number : UINT;\n  More : UINT;\nEND_VAR\n"
     own = f"FUNCTION MB_Plus : UINT\n{pins}  MB_Plus := Number + More;\nEND_FUNCTION\n"
     found: Wiring = wiring.find(loaded(own + ONE).program, set(loaded(own + ONE).drives))
-    assert found.line == "Bus"
+    assert [each.line for each in found.lines] == ["Bus"]

@@ -13,6 +13,7 @@ from pathlib import Path
 from driveblocks.bench.simulator.drive import SimulatedDrive
 from driveblocks.bench.simulator.habits import Habits
 from driveblocks.desk.run.controller import Controller
+from driveblocks.desk.run.wiring import DriveBlock
 from driveblocks.maps.collection import Source
 from driveblocks.maps.form import Span, span_text
 from driveblocks.maps.model import Drive
@@ -111,10 +112,12 @@ def named(drives: Sequence[Word], find: Callable[[str], tuple[Path, Drive]], opt
     return made
 
 
-def of_program(program: Controller, maps: Sequence[Source]) -> Iterator[Named]:
-    """The drives of a program, each at the unit address of its block, set as they left the factory."""
+def of_program(
+    program: Controller, maps: Sequence[Source], drives: Sequence[DriveBlock] | None = None
+) -> Iterator[Named]:
+    """The drives of a program, or some of them, each at the unit address of its block, set as they left the factory."""
     known = {each.drive.prefix.upper(): each for each in maps}
-    for block in program.wiring.drives:
+    for block in program.wiring.drives if drives is None else drives:
         if unit := program.unit(block):
             yield Named(known[block.prefix].path, known[block.prefix].drive, unit)
 

@@ -8,7 +8,7 @@ from driveblocks.desk.clock import Clock
 from driveblocks.desk.keyboard import Keyboard
 from driveblocks.desk.master import Master
 from driveblocks.desk.port import Port
-from driveblocks.desk.run.controller import Controller
+from driveblocks.desk.run.controller import Controller, LineEnd
 from driveblocks.desk.run.stopper import speech
 from driveblocks.desk.site.family import stranger
 from driveblocks.desk.site.reader import Reads
@@ -27,12 +27,10 @@ def ask(program: Controller, keyboard: Keyboard) -> frozenset[tuple[int, str]]:
     return allowed
 
 
-def strangers(
-    program: Controller, port: Port, clock: Clock, free: Collection[int], maps: Iterable[Source]
-) -> list[str]:
+def strangers(line: LineEnd, port: Port, clock: Clock, free: Collection[int], maps: Iterable[Source]) -> list[str]:
     """Why drives that may run are of another family than their blocks, by reads alone."""
-    units = {unit: drive for unit, drive in program.units().items() if unit in free}
-    master = Master(Reads(port), clock, speech(program, units))
+    units = {unit: drive for unit, drive in line.units().items() if unit in free}
+    master = Master(Reads(port), clock, speech(line, units))
     every = {each.path.stem: each.drive for each in maps}
     found = (
         stranger(master, drive, unit, {stem: one for stem, one in every.items() if one.prefix != drive.prefix})

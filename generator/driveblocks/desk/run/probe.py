@@ -39,7 +39,8 @@ def controller(loaded: source.Loaded, scan_us: int) -> Controller:
 def probed(loaded: source.Loaded, scan_us: int, limit_us: int) -> Controller:
     """The program after one scan, which may take `limit_us`. Raises Refused."""
     probe = controller(loaded, scan_us)
-    probe.connect(WirePort(Bus([], 9600, 10), VirtualClock()), None)
+    port, *others = (WirePort(Bus([], 9600, 10), VirtualClock()) for _ in probe.lines)
+    probe.connect(port, None, *others)
     errors: list[ScanError] = []
 
     def scan() -> None:

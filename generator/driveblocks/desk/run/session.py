@@ -4,7 +4,7 @@ import os
 import queue
 import signal
 import threading
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, field
 
 from driveblocks.desk.clock import Clock
@@ -12,12 +12,12 @@ from driveblocks.desk.ending import Ending
 from driveblocks.desk.keyboard import is_variable, typed
 from driveblocks.desk.port import Port
 from driveblocks.desk.recorder import Recorder
-from driveblocks.desk.run.controller import Controller
+from driveblocks.desk.run.controller import Controller, LineEnd
 from driveblocks.desk.run.gate import Gate, GivenUp
 from driveblocks.desk.run.look import look
 from driveblocks.desk.run.pace import Pace
 from driveblocks.desk.run.picture import Mark
-from driveblocks.desk.run.play import Play
+from driveblocks.desk.run.play import Plays
 from driveblocks.desk.run.stopper import Stop, Stopper, speech
 from driveblocks.desk.run.watchdog import Watchdog
 from driveblocks.desk.script import Setting
@@ -61,7 +61,7 @@ class Session:
         self.pace = Pace(scan_us)
         self.typed: queue.SimpleQueue[str] = queue.SimpleQueue()
         """Lines of a person, from another thread; what they do happens between two scans."""
-        self.play: Play | None = None
+        self.play: Plays | None = None
         """What happens to simulated drives."""
         self.script: Sequence[Setting] = ()
         self.shown: tuple[str, ...] = ()
@@ -80,7 +80,7 @@ class Session:
         self.settled: Callable[[Result], None] = lambda _: None
         """Called as soon as it is known how the run has ended."""
         self._clock = clock
-        self._gate: Gate
+        self._gates: tuple[Gate, ...] = ()
         self._over = self._suspending = False
         self._crash = ""
         self._done = 0
@@ -89,10 +89,10 @@ class Session:
         self._seen_drops: set[str] = set()
         self._port_error = ""
 
-    def connect(self, port: Port, free: frozenset[tuple[int, str]] | None) -> None:
-        """Take a port; see `Controller.connect`."""
-        self._gate = Gate(port, self._clock)
-        self.controller.connect(self._gate, free)
+    def connect(self, port: Port, free: frozenset[tuple[int, str]] | None, *others: Port) -> None:
+        """Take a port for each line; see `Controller.connect`."""
+        self._gates = tuple(Gate(each, self._clock) for each in (port, *others))
+        self.controller.connect(self._gates[0], free, *self._gates[1:])
 
     def run(self, for_us: int | None = None) -> Result:
         """Scan in a thread of its own until the end, whatever brings it; then stop every drive from this one."""
@@ -169,11 +169,12 @@ class Session:
             step(since)
         self.controller.receive()
         self.controller.scan(self._clock.now_us())
-        self._gate.check()
+        for each in self._gates:
+            each.check()
         self._record(since)
         if since - self._looked_us >= LOOK_US:
             self._looked_us = since
-            self.view = look(self.controller, self.shown, since, self._gate.error)
+            self.view = look(self.controller, self.shown, since, self._error())
             self._tell()
 
     def _take(self, since: int) -> None:
@@ -200,12 +201,15 @@ class Session:
         for what in self.controller.dropped.keys() - self._seen_drops:
             self._seen_drops.add(what)
             self.told.put(f"not sent: {what} (needs --allow-run)")
-        if self._gate.error != self._port_error:
-            self._port_error = self._gate.error
+        if self._error() != self._port_error:
+            self._port_error = self._error()
             self.told.put(f"the port does not work: {self._port_error}" if self._port_error else "the port works again")
         for each in self.recorders:
             if news := each.news():
                 self.told.put(news)
+
+    def _error(self) -> str:
+        return next((each.error for each in self._gates if each.error), "")
 
     def ask_to_suspend(self) -> None:
         """A person wants this process to be suspended; a signal calls this."""
@@ -225,49 +229,49 @@ class Session:
 
     def _end(self) -> Result:
         """Stop every drive; the program has no say any more."""
-        free = self._gate.take()
+        taken = [gate.take() for gate in self._gates]
         if self._crash:
             self.ending.reason = self.ending.reason or f"the program has failed: {self._crash}"
         self.marks.append((self._clock.now_us() - self._begun_us, self.ending.reason))
         for each in self.recorders:
             each.end()
         controller, told = self.controller if self.pace.scans else self.known, self.told
-        names = _names(controller)
         again = "" if self.ending.alone else "; Ctrl-C again gives them up"
         told.put(f"{self.ending.reason}: stopping every drive{again}")
         if self._crash not in self.ending.reason:
             told.put(f"the program has failed, too: {self._crash}")
+        unconfirmed: dict[str, str] = {}
+        stopped: list[str] = []
+        for gate, free, line, own in zip(self._gates, taken, controller.lines, self.controller.lines, strict=True):
+            for unit, why in self._stopped(gate, line, own.met, free=free).items():
+                names = ", ".join(line.names()[unit])
+                if why:
+                    unconfirmed[f"{names} (unit {unit})"] = why
+                else:
+                    stopped.append(names)
+        return Result(self.ending.reason, bool(self._crash), unconfirmed, tuple(stopped))
+
+    def _stopped(self, gate: Gate, line: LineEnd, met: Collection[int], *, free: bool) -> dict[int, str]:
+        """Stop the drives of a line; why each is not proved at standstill, by unit."""
         if not free:
-            told.put("the port takes nothing yet: the stop waits for it; Ctrl-C ends the waiting")
-            free = self._gate.take(TAKE_US, lambda: self.ending.hurry)
-        units = controller.units()
-        self._gate.late_ms = max(self._gate.late_ms, controller.late_ms)
-        stops = {unit: self._stop_of(unit, drive) for unit, drive in units.items()}
+            self.told.put("the port takes nothing yet: the stop waits for it; Ctrl-C ends the waiting")
+            free = gate.take(TAKE_US, lambda: self.ending.hurry)
+        units, names = line.units(), line.names()
+        gate.late_ms = max(gate.late_ms, line.late_ms)
+        stops = {unit: self._stop_of(line, unit, drive, met) for unit, drive in units.items()}
         shown = {unit: ", ".join(some) for unit, some in names.items()}
         if free:
-            Stopper(self._gate, self._clock, self.ending, speech(controller, units), told.put, shown).stop(stops)
+            Stopper(gate, self._clock, self.ending, speech(line, units), self.told.put, shown).stop(stops)
         found = {unit: one.why if free else STUCK for unit, one in stops.items()}
-        found |= dict.fromkeys(
+        return found | dict.fromkeys(
             names.keys() - units.keys(), "no stop sent: its unit address is not its own, or not known"
         )
-        unconfirmed = {f"{', '.join(names[unit])} (unit {unit})": why for unit, why in found.items() if why}
-        stopped = tuple(", ".join(names[unit]) for unit, why in found.items() if not why)
-        return Result(self.ending.reason, bool(self._crash), unconfirmed, stopped)
 
-    def _stop_of(self, unit: int, drive: Drive) -> Stop:
+    def _stop_of(self, line: LineEnd, unit: int, drive: Drive, met: Collection[int]) -> Stop:
         """A drive that is to be stopped, with the longest time that its blocks give it."""
         program = self.controller if self.pace.scans else self.known
-        blocks = [each for each in program.wiring.drives if program.unit(each) == unit]
-        within = max((program.number(f"{each.path}.StopWithinMs") for each in blocks), default=0)
-        return Stop(drive, 1000 * within or WITHIN_US, waited_for=unit in self.controller.met)
-
-
-def _names(controller: Controller) -> dict[int, list[str]]:
-    """The drive blocks at each unit address."""
-    names: dict[int, list[str]] = {}
-    for block in controller.wiring.drives:
-        names.setdefault(controller.unit(block), []).append(block.path)
-    return names
+        within = max((program.number(f"{each}.StopWithinMs") for each in line.names().get(unit, ())), default=0)
+        return Stop(drive, 1000 * within or WITHIN_US, waited_for=unit in met)
 
 
 def _halt() -> None:

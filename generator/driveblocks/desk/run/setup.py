@@ -2,9 +2,10 @@
 
 import difflib
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import ExitStack, closing, suppress
 from dataclasses import replace
+from itertools import chain
 from pathlib import Path
 
 from driveblocks import console
@@ -15,14 +16,14 @@ from driveblocks.desk.ending import Ending, listening
 from driveblocks.desk.keyboard import Keyboard
 from driveblocks.desk.port import Port, WirePort
 from driveblocks.desk.run import demo, live, probe, source
-from driveblocks.desk.run.controller import Controller
+from driveblocks.desk.run.controller import Controller, LineEnd
 from driveblocks.desk.run.departure import Departure
 from driveblocks.desk.run.drives import Named, named, of_program, told, words
 from driveblocks.desk.run.options import Options
 from driveblocks.desk.run.options import wrong as mistakes_of
 from driveblocks.desk.run.permission import strangers
 from driveblocks.desk.run.picture import Timing
-from driveblocks.desk.run.play import Play
+from driveblocks.desk.run.play import Play, Plays
 from driveblocks.desk.run.session import Result, Session
 from driveblocks.desk.run.simulated import Simulation
 from driveblocks.desk.run.watchdog import FIRST_US, LIMIT_US, Watchdog
@@ -46,6 +47,7 @@ FILES_S = 1.0
 """How much of this its files may take."""
 PATIENT = 10
 """With --fast, this many times as long."""
+Act = Callable[[scenario.Happening], None]
 RECORDED = ("Running", "Fault", "StopConfirmed", "OutputFrequencyHz")
 """Outputs of each drive block that are recorded where nobody names others."""
 
@@ -72,7 +74,10 @@ class Setup:
             )
         self.probe = probe.probed(self._loaded, self._scan_us, max(FIRST_US, self._watchdog_us))
         """The program after one scan, without a port: what `permission` asks a person about."""
-        self._drives = [] if options.tcp or options.port else self._simulates()
+        if len(self.probe.lines) > 1 and (options.tcp or options.port):
+            names = ", ".join(each.wiring.line for each in self.probe.lines)
+            raise Refused(f"{len(self.probe.lines)} lines ({names}): one port can be served; simulate them")
+        self._lines: list[list[Named]] = [] if options.tcp or options.port else self._simulates()
         self._clock: Clock = VirtualClock() if options.fast else RealClock()
         self._demo: demo.Demo | None = None
         self._session = self._made()
@@ -89,19 +94,19 @@ class Setup:
         return time("--watchdog", self._options.watchdog, SHORTEST_WATCHDOG_US, LONGEST_WATCHDOG_US)
 
     def _line(self, pin: str) -> int:
-        return self.probe.number(f"{self.probe.wiring.line}.{pin}") or USUAL.get(pin, 0)
+        return _number(self.probe.lines[0], pin)
 
     # ------------------------------------------------------------ port
 
-    def _port(self) -> Port:
-        """Open the port. Raises Refused."""
+    def _ports(self) -> list[Port]:
+        """Open the port, or those of simulated lines. Raises Refused."""
         options = self._options
         with opening(options.port or options.tcp or "simulated drives"):
             if options.port is not None:
-                return port.serial_port(options.port, self._line("BitRate"), self._form(), self._clock)
+                return [port.serial_port(options.port, self._line("BitRate"), self._form(), self._clock)]
             if options.tcp is not None:
                 host, _, number = options.tcp.rpartition(":")
-                return port.tcp(host or LOOPBACK[1], int(number), self._clock)
+                return [port.tcp(host or LOOPBACK[1], int(number), self._clock)]
             return self._simulated()
 
     def _form(self) -> str:
@@ -117,44 +122,62 @@ class Setup:
         if its.bits == bits and (its.data == 7) == bool(is_ascii):
             return its.form
         if found is None:
-            raise Refused(f"CharacterBits = {bits} of {self.probe.wiring.line} leaves no format; write --format")
+            raise Refused(f"CharacterBits = {bits} of the line leaves no format; write --format")
         return found
 
-    def _simulates(self) -> list[Named]:
-        """The drives that are named, else those of the program. Raises Refused."""
+    def _simulates(self) -> list[list[Named]]:
+        """The drives of each line: those that are named, else those of the program. Raises Refused."""
+        lines = self.probe.lines
         if not self._options.simulate:
-            return list(of_program(self.probe, self._maps))
-        return named(words(self._options.simulate), lambda name: source.meant(name, self._maps), "--simulate ")
+            return [list(of_program(self.probe, self._maps, each.wiring.drives)) for each in lines]
+        if len(lines) > 1:
+            raise Refused(f"--simulate is for one line, and this program has {len(lines)}; leave it out")
+        return [named(words(self._options.simulate), lambda name: source.meant(name, self._maps), "--simulate ")]
 
-    def _simulated(self) -> Port:
-        rate, bits, ascii_mode = self._line("BitRate"), self._line("CharacterBits"), bool(self._line("Ascii"))
+    def _simulated(self) -> list[Port]:
+        """A port for each line."""
+        made = [self._bus(*each) for each in zip(self.probe.lines, self._lines, strict=True)]
+        self._acts([act for _, act in made])
+        return [opened for opened, _ in made]
+
+    def _bus(self, line: LineEnd, named: list[Named]) -> tuple[Port, Act]:
+        """One line of simulated drives, and how something happens to them."""
+        rate, bits, ascii_mode = _number(line, "BitRate"), _number(line, "CharacterBits"), bool(_number(line, "Ascii"))
         if not (300 <= rate <= 1_000_000 and 8 <= bits <= 12):
-            raise Refused(f"{self.probe.wiring.line} has BitRate {rate} and CharacterBits {bits}, which is no line")
+            raise Refused(f"{line.wiring.line} has BitRate {rate} and CharacterBits {bits}, which is no line")
         if isinstance(self._clock, VirtualClock) or self._options.demo:
-            drives = [one.made(ascii_mode=ascii_mode) for one in self._drives]
+            drives = [one.made(ascii_mode=ascii_mode) for one in named]
             if self._options.demo:
                 for drive in drives:
                     drive.habits = replace(drive.habits, ramp=demo.RAMP, coast_ramp=demo.COAST)
                 self._demo = demo.Demo(self._session, drives[-1])
                 self._session.steps.append(self._demo.step)
             bus = Bus(drives, rate, bits, ascii_mode=ascii_mode)
-            self._acts(lambda happening: bus.happen(happening.act, self._clock.now_us()))
-            return WirePort(bus, self._clock)
-        process = Simulation(self._drives, rate, bits, ascii_mode=ascii_mode)
+            return WirePort(bus, self._clock), lambda happening: bus.happen(happening.act, self._clock.now_us())
+        process = Simulation(named, rate, bits, ascii_mode=ascii_mode)
         self._stack.callback(process.close)
-        self._acts(process.happen)
-        return port.tcp(LOOPBACK[1], process.port, self._clock)
+        return port.tcp(LOOPBACK[1], process.port, self._clock), process.happen
 
-    def _play(self) -> Play | None:
+    def _play(self) -> Plays | None:
         """What happens to simulated drives; None where nobody can know what they are. Raises Refused."""
-        path, drives = self._options.scenario, {one.unit: one.drive for one in self._drives}
+        path = self._options.scenario
         if self._options.tcp or self._options.port or self._options.demo:
             return None
-        return Play(drives, scenario.read(path, drives) if path else ())
+        if path and len(self._lines) > 1:
+            raise Refused(f"--scenario is for one line, and this program has {len(self._lines)}; type what happens")
+        units = [{one.unit: one.drive for one in each} for each in self._lines]
+        plays = [Play(each, scenario.read(path, each) if path else ()) for each in units]
+        names = {
+            block.path: (play, self.probe.unit(block))
+            for play, line in zip(plays, self.probe.lines, strict=True)
+            for block in line.wiring.drives
+        }
+        return Plays(plays, names)
 
-    def _acts(self, act: Callable[[scenario.Happening], None]) -> None:
+    def _acts(self, acts: Sequence[Act]) -> None:
         if self._session.play is not None:
-            self._session.play.act = act
+            for play, act in zip(self._session.play.lines, acts, strict=True):
+                play.act = act
 
     # ------------------------------------------------------------ the session
 
@@ -219,18 +242,19 @@ class Setup:
         suspend = self._session.ask_to_suspend if self._options.real else None
         self._session.ending.alone = sys.stdin is None or not sys.stdin.isatty()
         with self._stack, listening(self._session.ending, suspend):
-            opened = self._port()
-            self._stack.callback(opened.close)
+            opened = self._ports()
+            for each in opened:
+                self._stack.callback(each.close)
             units = {unit for unit, _ in free} if self._options.real else set()
-            if wrong := strangers(self.probe, opened, self._clock, units, self._maps):
+            if wrong := strangers(self.probe.lines[0], opened[0], self._clock, units, self._maps):
                 raise Refused("\n".join(wrong))
-            self._session.connect(opened, free if self._options.real else None)
-            for note in self._session.controller.wiring.notes:
+            self._session.connect(opened[0], free if self._options.real else None, *opened[1:])
+            for note in chain.from_iterable(each.notes for each in self._session.controller.wiring.lines):
                 console.write(str(note))
             if self._options.real and self._options.loopback and not free:
                 self._session.told.put("only reads and stops are sent; if a simulator is there, add --simulated")
-            for line in told(self._drives):
-                self._session.told.put(line)
+            for text in told(list(chain.from_iterable(self._lines))):
+                self._session.told.put(text)
             screen = self._screen()
             return self._report(self._fast(screen) if self._options.fast else self._live(screen))
 
@@ -314,3 +338,8 @@ def _stands(result: Result) -> Iterator[str]:
         yield f"stopped, and standstill read: {', '.join(result.stopped)}"
     for name, why in result.unconfirmed.items():
         yield f"NOT CONFIRMED: {name}: {why}. Go and look"
+
+
+def _number(line: LineEnd, pin: str) -> int:
+    """A pin of a line, and what the line takes where it is 0."""
+    return line.number(pin) or USUAL.get(pin, 0)

@@ -7,7 +7,7 @@ from driveblocks.desk.clock import Clock
 from driveblocks.desk.ending import Ending
 from driveblocks.desk.exchange import LATE_US
 from driveblocks.desk.master import REPLY_US, Last, Master, Speech
-from driveblocks.desk.run.controller import Controller
+from driveblocks.desk.run.controller import LineEnd
 from driveblocks.desk.run.gate import Gate
 from driveblocks.desk.run.guard import stop_request
 from driveblocks.desk.site.register import spans
@@ -153,9 +153,8 @@ def waited(stops: Mapping[int, Stop]) -> Collection[int]:
     return [unit for unit, one in stops.items() if one.why]
 
 
-def speech(controller: Controller, units: dict[int, Drive]) -> Speech:
+def speech(line: LineEnd, units: dict[int, Drive]) -> Speech:
     """How a program's line is spoken on."""
-    number, line = controller.number, controller.wiring.line
     milliseconds = max((serial(each).silence_ms for each in units.values()), default=0)
-    bits, rate = number(f"{line}.CharacterBits") or USUAL_BITS, number(f"{line}.BitRate") or USUAL_RATE
-    return Speech("ascii" if number(f"{line}.Ascii") else "rtu", 1e6 * bits / rate, int(1000 * milliseconds))
+    bits, rate = line.number("CharacterBits") or USUAL_BITS, line.number("BitRate") or USUAL_RATE
+    return Speech("ascii" if line.number("Ascii") else "rtu", 1e6 * bits / rate, int(1000 * milliseconds))

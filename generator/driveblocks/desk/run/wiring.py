@@ -1,7 +1,7 @@
 """Where a program reaches its serial port, its lines and its drives: found in the typed tree, not by names."""
 
-from collections.abc import Iterator
-from dataclasses import dataclass, field, replace
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field
 
 from driveblocks.render.library import LINE_SIZES
 from structured_text.engines.embedded.certainty import present
@@ -41,8 +41,8 @@ class DriveBlock:
 
 
 @dataclass(frozen=True)
-class Wiring:
-    """Paths of what the scan loop reads and writes; those that it writes are written by nothing in the program."""
+class LineWiring:
+    """Paths of what the scan loop reads and writes of one line; those that it writes are written by nothing else."""
 
     line: str
     """Instance of the line."""
@@ -54,10 +54,19 @@ class Wiring:
     rx_count: str = ""
     rx_chars: str = ""
     tx_chars: str = ""
+    drives: tuple[DriveBlock, ...] = ()
+
+
+@dataclass(frozen=True)
+class Wiring:
+    """The lines of a program, in the order of its calls, and what belongs to none of them."""
+
+    lines: tuple[LineWiring, ...]
     restart: tuple[str, ...] = ()
     drives: tuple[DriveBlock, ...] = ()
+    """Of all lines."""
     inputs: tuple[str, ...] = ()
-    """What a person at the keyboard may set: the program's inputs, what else feeds its drives and its line, and the
+    """What a person at the keyboard may set: the program's inputs, what else feeds its drives and its lines, and the
     button that resets a VFD_HardStop."""
 
 
@@ -93,18 +102,22 @@ def find(program: Program, prefixes: set[str]) -> Wiring:
     blocks = [each for each in calls if each.block.name.upper() in drive_types]
     if unplaced := [each for each in (*blocks, *lines.values()) if UNPLACED in each.path]:
         raise BuildError([_told(each, _UNPLACED.format(each.block.name)) for each in unplaced])
-    if len(lines) != 1:
-        raise BuildError([_no_port(program, list(lines.values()))])
-    (line,) = lines.values()
-    drives = {each.path.upper(): DriveBlock(each.path, each.block.name[: -len(DRIVE)].upper()) for each in blocks}
-    wired = _port(line, written)
+    if not lines:
+        raise BuildError([_no_port(program)])
+    wired = tuple(_port(each, blocks, written, alone=len(lines) == 1) for each in lines.values())
+    _judge_ports(list(lines.values()), [each.port or each.rx_count for each in wired])
     contacts = [each for each in calls if each.block.name.upper() == HARD_STOP]
-    restart = dict.fromkeys(filter(None, (_fed(each, "RESTART", written) for each in (line, *contacts))))
-    served = {each.upper() for each in (wired.rx_count, *restart, *filter(None, wired.pins.values()))}
-    inputs = [*_inputs(program), *(path for each in (*blocks, line) for path in _feeding(each))]
+    restart = dict.fromkeys(filter(None, (_fed(each, "RESTART", written) for each in (*lines.values(), *contacts))))
+    served = {each.upper() for one in wired for each in (one.rx_count, *filter(None, one.pins.values()))}
+    inputs = [*_inputs(program), *(path for each in (*blocks, *lines.values()) for path in _feeding(each))]
     inputs += [path for each in contacts for path in _feeding(each, {"RESET"})]
-    free = {path.upper(): path for path in inputs if path.upper() not in served | written}
-    return replace(wired, drives=tuple(drives.values()), restart=tuple(restart), inputs=tuple(free.values()))
+    free = {path.upper(): path for path in inputs if path.upper() not in served | {*map(str.upper, restart)} | written}
+    return Wiring(wired, tuple(restart), _drives(blocks), tuple(free.values()))
+
+
+def _drives(blocks: Iterable[_Call]) -> tuple[DriveBlock, ...]:
+    drives = {each.path.upper(): DriveBlock(each.path, each.block.name[: -len(DRIVE)].upper()) for each in blocks}
+    return tuple(drives.values())
 
 
 def _inputs(program: Program) -> list[str]:
@@ -122,9 +135,10 @@ def _feeding(call: _Call, names: set[str] | None = None) -> Iterator[str]:
             yield source
 
 
-def _port(line: _Call, written: set[str]) -> Wiring:
-    """The wiring as far as the line shows it."""
+def _port(line: _Call, blocks: list[_Call], written: set[str], *, alone: bool) -> LineWiring:
+    """One line with its port and its drives."""
     pins = {name: _pin(line, name, written) for name in ("ELAPSEDMS", "PORTLATEMS", "PORTERRORID")}
+    drives = _drives(each for each in blocks if alone or _has_slot(line, each))
     notes = []
     if pins["ELAPSEDMS"] is None and not isinstance(_source(line, "ELAPSEDMS"), str):
         notes.append(
@@ -133,26 +147,40 @@ def _port(line: _Call, written: set[str]) -> Wiring:
     if line.block.name.upper() in LINES:
         port = _needed(line, "PORT", set())
         pins |= {"PORTLATEMS": f"{port}.LateMs", "PORTERRORID": f"{port}.ErrorID"}
-        return Wiring(line.path, pins, tuple(notes), port)
-    return Wiring(
+        return LineWiring(line.path, pins, tuple(notes), port, drives=drives)
+    return LineWiring(
         line.path,
         pins,
         tuple(notes),
         rx_count=_needed(line, "RXCOUNT", written),
         rx_chars=_needed(line, "RXCHARS", set()),
         tx_chars=_needed(line, "TXCHARS", set()),
+        drives=drives,
     )
 
 
-def _no_port(program: Program, lines: list[_Call]) -> Message:
-    if not lines:
-        unit = present(program.unit)
-        wrong = (
-            f"{program.name} calls no line, so it has no port; call an MB_ByteLine8, as README.md of the blocks shows"
-        )
-        return Message(unit.path, *unit.place(program.name_at), wrong)
-    names = ", ".join(each.path for each in lines)
-    return _told(lines[1], f"{len(lines)} ports ({names}): one port can be served; keep one line in this program")
+def _has_slot(line: _Call, drive: _Call) -> bool:
+    """Whether a drive block has one of the slots of a line."""
+    slots, slot = _source(line, "SLOTS"), _source(drive, "SLOT")
+    if not isinstance(slot, str):
+        wrong = f"it cannot be seen on which line {drive.path} is; give Slot an element of Slots by its number"
+        raise BuildError([_told(drive, wrong)])
+    return isinstance(slots, str) and slot.upper().startswith(f"{slots.upper()}[")
+
+
+def _judge_ports(lines: list[_Call], ports: list[str]) -> None:
+    """Raises BuildError where two lines have one port."""
+    for at, port in enumerate(ports):
+        first = next(number for number, each in enumerate(ports) if each.upper() == port.upper())
+        if first != at:
+            wrong = f"{lines[first].path} and {lines[at].path} share {port}; give each line a port of its own"
+            raise BuildError([_told(lines[at], wrong)])
+
+
+def _no_port(program: Program) -> Message:
+    unit = present(program.unit)
+    wrong = f"{program.name} calls no line, so it has no port; call an MB_ByteLine8, as README.md of the blocks shows"
+    return Message(unit.path, *unit.place(program.name_at), wrong)
 
 
 def _told(call: _Call, text: str) -> Message:

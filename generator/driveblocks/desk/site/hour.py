@@ -47,6 +47,8 @@ class Words:
             yield f"--unit {self.unit} is out of range; write 1 to 255"
         if not kept.LABEL.fullmatch(self.label):
             yield f"--label {self.label} is no label; write up to 24 letters and digits, a letter first"
+        if self.label in kept.PLANT:
+            yield f"--label {self.label} is a key of a plant; write another"
         for each in self.skip:
             if each not in SKIPPABLE:
                 yield f"--skip {each} cannot be; write one of {', '.join(SKIPPABLE)}"

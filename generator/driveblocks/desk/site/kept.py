@@ -29,6 +29,11 @@ _UINT = re.compile("[0-9]{1,4}|[1-5][0-9]{4}|6[0-4][0-9]{3}|65[0-4][0-9]{2}|655[
 Ms = Annotated[int, Form("time of a PLC", _UINT, int, "write 0 to 65535, in ms", numeric=True)]
 _END = re.compile(r"(?m)^\.\.\.(?!\S)\s?")
 """What ends a document of YAML: nothing can be written after it."""
+PLANT = (
+    "plant", "scan_ms", "max_scan_ms", "cpu", "language", "lines", "drives", "groups", "inputs", "buttons", "lamps",
+    "hard_stops", "meters",
+)  # fmt: skip
+"""The keys of a plant, which may stand in the same file."""
 HEAD = "# Written by `driveblocks commission`, one entry per drive; other entries, and all comments, are kept.\n"
 
 
@@ -139,6 +144,8 @@ def read(path: Path) -> dict[str, Kept]:
         report.add(root.at, "this is no file of `driveblocks commission`", "write an entry per drive: `PUMP:`")
     elif root is not None:
         for label, (key, node) in root.entries.items():
+            if label in PLANT and not is_found(node):
+                continue
             first = next(each for each in root.entries if each.lower() == label.lower())
             if first != label:
                 report.add(key.at, f"`{label}` and `{first}` are one name in a PLC", "rename one of them")
@@ -151,6 +158,12 @@ def read(path: Path) -> dict[str, Kept]:
                 found[label] = made
     report.raise_if_any()
     return found
+
+
+def is_found(node: nodes.Node | None) -> bool:
+    """Whether an entry is what commission found of a drive, not a part of a plant: its `map` is one word."""
+    own = node.entries if isinstance(node, nodes.Entries) else {}
+    return all(isinstance(own.get(key, (None, None))[1], nodes.Scalar) for key in ("map", "revision"))
 
 
 def write(path: Path, about: About, found: Found) -> None:

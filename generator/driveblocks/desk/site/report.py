@@ -1,7 +1,7 @@
 """The figures of a line as tables, and as JSON."""
 
 from collections.abc import Iterator, Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
 from rich.console import RenderableType
 from rich.text import Text
@@ -56,15 +56,31 @@ def verdict(tried: Sequence[Figures]) -> str:
 
 def _warned(own: Figures) -> Iterator[str]:
     """What does not hold at the line's own rate, and what to do about it; drives of which the same is so together."""
-    found: dict[tuple[str, str, str], list[str]] = {}
+    for each, ages in complaints(own).items():
+        yield f"{each.what} of {', '.join(map(_name, ages))} {each.said}. What helps: {each.helps}."
+
+
+class Complaint(NamedTuple):
+    """What does not hold of a drive."""
+
+    what: str
+    said: str
+    helps: str
+
+
+def complaints(own: Figures) -> dict[Complaint, list[Aged]]:
+    """What does not hold at a rate, and of which drives."""
+    found: dict[Complaint, list[Aged]] = {}
     for each in own.slow:
-        found.setdefault(_aging(each.promised), []).append(_name(each))
+        found.setdefault(_complaint(*_aging(each.promised)), []).append(each)
     for each in own.starved:
         said = f"may wait {each.feed} ms, more than two thirds of {each.unit.watchdog_ms} ms: it may trip"
-        found.setdefault(("What feeds the watchdog", said, "a longer watchdog"), []).append(_name(each))
-    for (what, said, also), names in found.items():
-        helps = f"fewer drives, a higher bit rate, a shorter scan, a shorter TurnRoundMs, {also}"
-        yield f"{what} of {', '.join(names)} {said}. What helps: {helps}."
+        found.setdefault(_complaint("What feeds the watchdog", said, "a longer watchdog"), []).append(each)
+    return found
+
+
+def _complaint(what: str, said: str, also: str) -> Complaint:
+    return Complaint(what, said, f"fewer drives, a higher bit rate, a shorter scan, a shorter TurnRoundMs, {also}")
 
 
 def _aging(one: Promised) -> tuple[str, str, str]:

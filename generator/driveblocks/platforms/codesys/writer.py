@@ -11,7 +11,7 @@ from driveblocks.platforms import PLATFORMS
 from driveblocks.platforms.element import Element, element
 from driveblocks.platforms.ladder import ladder
 from driveblocks.platforms.page import page
-from driveblocks.platforms.part import SHARED, YOURS, Part, Shelf
+from driveblocks.platforms.part import SHARED, YOURS, Own, Part, Shelf, Volume
 from driveblocks.platforms.problem import ExportError
 from driveblocks.platforms.rungs import diagram
 from driveblocks.platforms.tc6 import CODESYS, project, types, vendor, written
@@ -33,23 +33,36 @@ def write(shelf: Shelf) -> dict[str, str]:
     """A file of each volume and of the serial port, and one of each program of a drive. Raises ExportError."""
     problems: list[Problem] = []
     shelf = widened(shelf)
-    port = shelf.port(PLATFORM)
-    motors = {drive.prefix: shelf.motors(PLATFORM, drive) for drive in shelf.drives.values()}
+    volumes = (*shelf.volumes(), *shelf.port(PLATFORM))
+    motors = [shelf.motors(PLATFORM, drive) for drive in shelf.drives.values()]
     masters = shelf.masters(PLATFORM, channels)
-    volumes = (*shelf.volumes(), *port)
-    programs = [*(one for both in motors.values() for one in both), *masters.values()]
     made = {part.name: _written(part, problems) for one in volumes for part in one.parts}
-    made |= {one.name: _written(one, problems) for one in programs}
-    blocks = {
-        part.name: part.element for one in volumes for part in one.parts if isinstance(part.element, FunctionBlock)
-    }
-    for _, drawn in motors.values():
-        made[drawn.name] = ladder(made[drawn.name], diagram(drawn, blocks))
+    texts = (*(text for text, _ in motors), *masters.values())
+    programs = _programs(volumes, texts, [drawn for _, drawn in motors], problems)
     if problems:
         raise ExportError(problems)
     files = {f"{one.layer}/{one.name}.xml": _file(one.name, one.parts, made) for one in volumes}
-    files |= {f"{YOURS}/{one.name}.xml": _file(one.name, (one,), made) for one in programs}
-    return files | page(PLATFORM, shelf, volumes, bool(masters))
+    return files | programs | page(PLATFORM, shelf, volumes, bool(masters))
+
+
+def own(shelf: Shelf, programs: Own) -> dict[str, str]:
+    """A file of each program of a user's own. Raises ExportError."""
+    problems: list[Problem] = []
+    volumes = (*shelf.volumes(), *shelf.port(PLATFORM))
+    files = _programs(volumes, programs.texts, programs.ladders, problems)
+    if problems:
+        raise ExportError(problems)
+    return files
+
+
+def _programs(
+    volumes: Sequence[Volume], texts: Sequence[Part], ladders: Sequence[Part], problems: list[Problem]
+) -> dict[str, str]:
+    made = {one.name: _written(one, problems) for one in (*texts, *ladders)}
+    parts = (part for one in volumes for part in one.parts)
+    blocks = {part.name: part.element for part in parts if isinstance(part.element, FunctionBlock)}
+    made |= {one.name: ladder(made[one.name], diagram(one, blocks)) for one in ladders}
+    return {f"{YOURS}/{one.name}.xml": _file(one.name, (one,), made) for one in (*texts, *ladders)}
 
 
 def _file(name: str, parts: Sequence[Part], made: dict[str, Element]) -> str:

@@ -5,7 +5,7 @@ is the user's, a program and its task, has a file of its own, and so has the por
 """
 
 from driveblocks.platforms.page import page
-from driveblocks.platforms.part import YOURS, Shelf, Volume
+from driveblocks.platforms.part import YOURS, Own, Shelf, Volume
 from driveblocks.render.environment import render
 from driveblocks.render.motor import SCAN_MS, motor
 
@@ -23,8 +23,18 @@ def write(shelf: Shelf) -> dict[str, str]:
     return made | page(PLATFORM, shelf, (*volumes, *port))
 
 
-def _tasked(text: str, program: str) -> str:
-    return f"{text}\n{render(f'{PLATFORM}/Task.st.j2', program=program, scan=SCAN_MS)}"
+def own(_: Shelf, programs: Own) -> dict[str, str]:
+    """A file of each program of a user's own, with its task."""
+    return {f"{YOURS}/{one.name}.st": _tasked(one.text, one.name, programs.scan_ms) for one in programs.texts}
+
+
+def library(shelf: Shelf) -> dict[str, str]:
+    """The library alone, without a port."""
+    return {f"{one.layer}/{one.name}.st": _joined(one) for one in shelf.volumes()}
+
+
+def _tasked(text: str, program: str, scan_ms: int = SCAN_MS) -> str:
+    return f"{text}\n{render(f'{PLATFORM}/Task.st.j2', program=program, scan=scan_ms)}"
 
 
 def _joined(one: Volume) -> str:

@@ -15,7 +15,7 @@ _SECTIONS = {
     tree.VarKind.LOCAL: "VAR",
     tree.VarKind.TEMP: "VAR_TEMP",
 }
-_CONSTANT = "VAR CONSTANT"
+_CONSTANT, _RETAIN = "VAR CONSTANT", "VAR RETAIN"
 _PER_ROW = 8
 
 
@@ -31,7 +31,7 @@ def sections(part: Part, names: Names) -> Iterator[str]:
     """
     pou = part.element
     assert isinstance(pou, tree.Pou)  # noqa: S101  (a type has no sections)
-    found: dict[str, list[tree.VarDecl]] = {name: [] for name in (*_SECTIONS.values(), _CONSTANT)}
+    found: dict[str, list[tree.VarDecl]] = {name: [] for name in (*_SECTIONS.values(), _RETAIN, _CONSTANT)}
     for block in pou.blocks:
         for one in block.variables:
             found[_section(part, one, names)].append(one)
@@ -46,6 +46,8 @@ def sections(part: Part, names: Names) -> Iterator[str]:
 
 def _section(part: Part, one: tree.VarDecl, names: Names) -> str:
     name = _SECTIONS.get(one.kind)
+    if one.retain and name == "VAR" and isinstance(part.element, tree.Program):
+        return _RETAIN
     if name is None or one.retain or one.edge or one.address:
         names.refuse(part, one.at, f"{one.name}: SCL has no such declaration; a plain VAR can be written")
         return "VAR"

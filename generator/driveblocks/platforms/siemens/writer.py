@@ -3,7 +3,7 @@
 from collections.abc import Iterable, Iterator, Sequence
 
 from driveblocks.platforms.page import page
-from driveblocks.platforms.part import YOURS, Part, Shelf
+from driveblocks.platforms.part import YOURS, Own, Part, Shelf, Volume
 from driveblocks.platforms.problem import ExportError
 from driveblocks.platforms.siemens.body import body
 from driveblocks.platforms.siemens.declaration import head, opening, spelled, type_lines
@@ -20,7 +20,7 @@ def write(shelf: Shelf) -> dict[str, str]:
     volumes = (*shelf.volumes(), *shelf.port(PLATFORM))
     masters = shelf.masters(PLATFORM, master)
     programs = [*(shelf.motor(PLATFORM, drive) for drive in shelf.drives.values()), *masters.values()]
-    names = Names({part.name.upper(): part for one in volumes for part in one.parts})
+    names = _names(volumes)
     made: dict[str, str] = {}
     for one in volumes:
         arrays, structures = _arrays(one.types, names), _structures(one.types, names)
@@ -31,6 +31,19 @@ def write(shelf: Shelf) -> dict[str, str]:
     if names.problems:
         raise ExportError(sorted(names.problems))
     return made | page(PLATFORM, shelf, volumes, bool(masters))
+
+
+def own(shelf: Shelf, programs: Own) -> dict[str, str]:
+    """A file of each program of a user's own; SCL has no ladder. Raises ExportError."""
+    names = _names((*shelf.volumes(), *shelf.port(PLATFORM)))
+    made = {f"{YOURS}/{one.name}.scl": _text(_blocks([one], names)) for one in programs.texts}
+    if names.problems:
+        raise ExportError(sorted(names.problems))
+    return made
+
+
+def _names(volumes: Iterable[Volume]) -> Names:
+    return Names({part.name.upper(): part for one in volumes for part in one.parts})
 
 
 def _arrays(parts: Sequence[Part], names: Names) -> list[str]:

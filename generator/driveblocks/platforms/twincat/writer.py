@@ -9,14 +9,14 @@ byte order mark, CRLF. Ids are made of names, so that a rebuild is no diff.
 
 import re
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from uuid import UUID, uuid5
 
 from driveblocks import __version__
 from driveblocks.platforms import PLATFORMS
 from driveblocks.platforms.element import escaped
 from driveblocks.platforms.page import page
-from driveblocks.platforms.part import SHARED, YOURS, Part, Shelf, Volume
+from driveblocks.platforms.part import SHARED, YOURS, Own, Part, Shelf, Volume
 from driveblocks.platforms.problem import ExportError
 from driveblocks.platforms.wide import widened
 from driveblocks.render.environment import render
@@ -84,15 +84,43 @@ def write(shelf: Shelf) -> dict[str, str]:
     families = [_library("families", each, [one for one in volumes if one.base == each]) for each in motors]
     made = {f"{one.layer}/{item.path}": item.text for one in (shared, *families) for item in one.items}
     made[f"shared/{SHARED}.plcproj"] = _project(SHARED, shared.items, libraries=BECKHOFF)
-    own = [_item(fast, ""), _globals(), _task("TC_FastTask", FAST, FAST_US, 10)]
-    made |= {f"{YOURS}/{item.path}": item.text for item in own} if motors else {}
+    served = _terminal()
+    made |= {f"{YOURS}/{item.path}": item.text for item in served} if motors else {}
     for family in families:
         made[f"families/{family.name}.plcproj"] = _project(family.name, family.items, libraries=(SHARED,))
         name = f"{family.name}_Motor"
         program = [_item(motors[family.name], ""), _task(f"{family.name}_Task", name, LINE_US, 20)]
         made |= {f"{YOURS}/{item.path}": item.text for item in program}
-        made[f"{YOURS}/{name}.plcproj"] = _project(name, [*program, *own], [shared, family], BECKHOFF)
+        made[f"{YOURS}/{name}.plcproj"] = _project(name, [*program, *served], [shared, family], BECKHOFF)
     return made | page(PLATFORM, shelf, (*volumes, *port))
+
+
+def own(shelf: Shelf, programs: Own) -> dict[str, str]:
+    """A project for each program of a user's own, with a terminal for each line; a ladder is drawn in TwinCAT.
+
+    Raises ExportError.
+    """
+    volumes, port = tuple(shelf.volumes()), shelf.port(PLATFORM)
+    _refuse(programs.texts)
+    linked = [_library("shared", SHARED, [one for one in (*volumes, *port) if not one.drive])]
+    linked += [
+        _library("families", each.prefix, [one for one in volumes if one.base == each.prefix])
+        for each in shelf.drives.values()
+    ]
+    linked = [replace(each, needed=each.items) for each in linked]
+    fast = [item for line in programs.lines for item in _terminal(f"_{line}")]
+    made = {f"{YOURS}/{item.path}": item.text for item in fast}
+    for one in programs.texts:
+        program = [_item(one, ""), _task(f"{one.name}_Task", one.name, 1000 * programs.scan_ms, 20)]
+        made |= {f"{YOURS}/{item.path}": item.text for item in program}
+        made[f"{YOURS}/{one.name}.plcproj"] = _project(one.name, [*program, *fast], linked, BECKHOFF)
+    return made
+
+
+def _terminal(mark: str = "") -> list[Item]:
+    """What serves one terminal; `mark` tells it from others."""
+    fast = f"{FAST}{mark}"
+    return [_item(_fast(mark), ""), _globals(mark), _task(f"TC_FastTask{mark}", fast, FAST_US, 10)]
 
 
 def _library(layer: str, name: str, volumes: Sequence[Volume]) -> Project:
@@ -106,17 +134,22 @@ def _folder(one: Volume, part: Part) -> str:
     return f"{one.base}/{one.extra}".rstrip("/") if one.drive else one.extra or inner
 
 
-def _fast() -> Part:
-    """The program that serves the terminal."""
-    text = render(f"{PLATFORM}/{FAST}.st.j2", where=PLATFORMS[PLATFORM].where)
-    return Part(PLATFORM, parse(text, f"{PLATFORM}/{FAST}.st"))
+def _fast(mark: str = "") -> Part:
+    """The program that serves a terminal."""
+    text = _marked(render(f"{PLATFORM}/{FAST}.st.j2", where=PLATFORMS[PLATFORM].where), mark)
+    return Part(PLATFORM, parse(text, f"{PLATFORM}/{FAST}{mark}.st"))
 
 
-def _globals() -> Item:
+def _globals(mark: str = "") -> Item:
     """What two tasks share."""
-    text = render(f"twincat/{GLOBALS}.gvl.j2").rstrip("\n")
-    inner = f'  <GVL Name="{GLOBALS}" Id="{_id(GLOBALS)}">\n{_declared(text)}  </GVL>\n'
-    return Item("", GLOBALS, "TcGVL", _object(inner))
+    text, name = _marked(render(f"twincat/{GLOBALS}.gvl.j2").rstrip("\n"), mark), f"{GLOBALS}{mark}"
+    inner = f'  <GVL Name="{name}" Id="{_id(name)}">\n{_declared(text)}  </GVL>\n'
+    return Item("", name, "TcGVL", _object(inner))
+
+
+def _marked(text: str, mark: str) -> str:
+    """With the names of one terminal."""
+    return re.sub(rf"\b({FAST}|{GLOBALS})\b", rf"\1{mark}", text)
 
 
 def _task(name: str, program: str, interval_us: int, priority: int) -> Item:
