@@ -128,15 +128,19 @@ def test_a_bar_shows_the_speed_and_what_is_asked_as_a_share_of_the_maximum(
         assert screen.Plots(terminal).bar(seen) == bar
 
 
-@pytest.mark.parametrize(("height", "said"), [(24, True), (14, False)])
-def test_without_room_only_what_is_to_be_done_is_said_of_a_drive(height: int, said: bool) -> None:
+@pytest.mark.parametrize(("height", "said", "rows"), [(24, True, 9), (18, True, 8), (10, False, 6)])
+def test_with_less_room_a_remedy_is_cut_and_without_any_only_what_is_to_be_done_is_said(
+    height: int, said: bool, rows: int
+) -> None:
     drawn = io.StringIO()
-    fine, bad = Seen("A", 1, "forward", 9.0, 9.0, "runs as asked"), Seen("B", 2, "no reply", 9.0, None, "gone", "look")
+    fine = Seen("A", 1, "forward", 9.0, 9.0, "runs as asked")
+    bad = Seen("B", 2, "no reply", 9.0, None, "gone", "look " * 20)
     terminal = Console(file=drawn, width=80, height=height)
     view = View(0, (fine, bad, fine), {}, {})
     terminal.print(*screen._parts(screen.Heading("SIMULATED", "my.st", real=False), view, screen.Plots(terminal)))
     assert ("runs as asked" in drawn.getvalue()) is said
     assert "gone - look" in drawn.getvalue()
+    assert len(drawn.getvalue().splitlines()) == rows
 
 
 @pytest.mark.parametrize(

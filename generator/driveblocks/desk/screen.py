@@ -23,8 +23,10 @@ BAD, GOOD = "bold red1", "bold green4"
 COLUMNS = ("drive", "unit", "0 to maximum", "Hz", "asked", "state")
 LONGEST_NAME, BAR = 24, 20
 """Columns of a drive's name, and of its speed."""
-ROWS, ROOM = 3, 8
+ROWS, ROOM = 4, 8
 """Rows of a terminal that a drive may take with its reason, and those of everything else."""
+LAST = 3
+"""Lines of what was said that are seen in any case."""
 MOST_SAID = 200
 WIDE = 110
 """Columns from which there is room for plots."""
@@ -104,9 +106,9 @@ class Plots:
         """Whether there is room, and the terminal has the characters."""
         return self._terminal.width >= WIDE and not self._terminal.options.ascii_only
 
-    def high(self, drives: int) -> bool:
-        """Whether so many drives have room with all that is said of them."""
-        return ROWS * drives + ROOM <= self._terminal.height
+    def rows(self, drives: int) -> int:
+        """How many rows each of so many drives has room for."""
+        return (self._terminal.height - ROOM) // max(1, drives)
 
     def bar(self, drive: Seen) -> str:
         """How much of its maximum a drive turns at; up to what it is asked for, or what is above that."""
@@ -177,7 +179,7 @@ class Desk:
         height = self._console.height - 1
         with self._console.capture() as capture:
             self._console.print(Group(*_parts(self._heading, view, self._plots), *_keys(view)))
-        table = capture.get().splitlines()[:height]
+        table = capture.get().splitlines()[: height - min(LAST, len(self._said))]
         rows = [*table, *list(self._said)[max(0, len(self._said) + len(table) - height) :]]
         rows += [""] * (height - len(rows))
         drawn = "\r\n".join(f"{row}\x1b[K" for row in rows)
@@ -215,7 +217,11 @@ def _keys(view: View) -> list[Columns | Text]:
 
 
 def _drives(drives: Sequence[Seen], plots: Plots) -> Iterator[RenderableType]:
-    """A row for each drive, and below it why it is so, and what to do; without room only what is to be done."""
+    """A row for each drive, and below it why it is so, and what to do.
+
+    With less room that is cut to a row; with none it is there only where there is something to do.
+    """
+    rows = plots.rows(len(drives))
     name = max([5, *(min(len(each.name), LONGEST_NAME) for each in drives)])
     last = [f"Hz, last {PLOTTED * PLOT_US // 1_000_000} s"] if plots.fit else []
     yield _row(name, (*COLUMNS[:-1], *last, COLUMNS[-1]), "bold")
@@ -224,8 +230,9 @@ def _drives(drives: Sequence[Seen], plots: Plots) -> Iterator[RenderableType]:
         plot = [plots.line(each)] if plots.fit else []
         row = (each.name, str(each.unit), plots.bar(each), hertz, f"{each.asked_hz:.1f}", *plot)
         yield _row(name, (*row, Text(each.state, _style(each.state))))
-        if each.remedy or plots.high(len(drives)):
+        if each.remedy or rows > 1:
             told = Text.assemble(each.why, (f" - {each.remedy}", "bold") if each.remedy else "")
+            told.no_wrap, told.overflow = rows < ROWS, "ellipsis" if rows < ROWS else "fold"
             yield Padding(told, (0, 0, 0, name + 2))
 
 

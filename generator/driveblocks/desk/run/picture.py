@@ -31,8 +31,8 @@ TOGETHER_US = 200_000
 """What happened within this time has one mark."""
 STROKE = 6
 """Corners within a pixel that are no longer drawn as they are."""
-FOR_LABEL = 80
-"""Between two times on the axis."""
+FOR_LABEL, LABEL = 80, 46
+"""Between two times on the axis, and the room of a number beside a curve."""
 
 Kept = TypeVar("Kept")
 Mark = tuple[int, str]
@@ -212,8 +212,8 @@ class _Sheet:
     # ------------------------------------------------------------ variables
 
     def _lane(self, name: str, lane: Changes[Value]) -> None:
-        if MONO * len(name) <= self.left - 30:
-            self.canvas.text(self.left - 30, self.top + LANE, name, "mono", "end")
+        if MONO * len(name) <= self.left - LABEL:
+            self.canvas.text(self.left - LABEL, self.top + LANE, name, "mono", "end")
         else:
             self.canvas.text(self.left, self.top + 10, name, "mono")
             self.top += 14
@@ -227,8 +227,8 @@ class _Sheet:
             heights = zip(spans, numbers, strict=True)
             self._curve(((at, to, base - scale * (number - low)) for (at, to, _), number in heights), "line")
             if not isinstance(values[0], bool):
-                self.canvas.text(self.left - 6, base - LANE + 7, f"{high:g}", "small", "end")
-                self.canvas.text(self.left - 6, base + 3, f"{low:g}", "small", "end")
+                self.canvas.text(self.left - 6, base - LANE + 7, f"{high:.5g}", "small", "end")
+                self.canvas.text(self.left - 6, base + 3, f"{low:.5g}", "small", "end")
             self.top = base
         self.top += 12
 
