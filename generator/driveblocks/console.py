@@ -7,7 +7,8 @@ terminal, and those that turn the direction of writing would show another text t
 import io
 import os
 import sys
-from collections.abc import Iterable
+import time
+from collections.abc import Callable, Iterable
 from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TextIO
@@ -17,12 +18,17 @@ from structured_text.visible import visible
 
 if TYPE_CHECKING:  # what prints no table does not load rich
     from rich.console import Console, ConsoleOptions, RenderableType
+    from rich.progress import Task
     from rich.segment import Segment
 
 NARROWEST = 60
 """Columns below which tables would lose text; a narrower terminal breaks the lines itself."""
 WIDEST = 1000
 """No terminal is wider; COLUMNS may say anything."""
+KNOWN = 0.05
+"""The share of something from which its pace tells how long the rest takes."""
+MINUTES_FROM = 100
+"""Seconds from which a time is said in minutes."""
 
 
 class Shown:
@@ -86,26 +92,42 @@ def terminal(name: str = "stdout") -> "Console":
 
 
 class Bar:
-    """How far something is that takes its time: a line of a terminal, which goes away; elsewhere nothing."""
+    """How far something is that takes its time, and for how long still: a line of a terminal, which goes away.
 
-    def __init__(self, screen: "Console", *, ticks: bool = True) -> None:
-        """`ticks`: its clock runs in a thread of its own, which must not be where processes are forked."""
-        from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
+    Elsewhere nothing.
+    """
 
-        columns = (
-            BarColumn(20),
-            MofNCompleteColumn(),
-            TimeElapsedColumn(),
-            TextColumn("{task.description}", markup=False),
-        )
+    def __init__(self, screen: "Console", *, ticks: bool = True, clock: Callable[[], float] = time.monotonic) -> None:
+        """`ticks`: it counts seconds in a thread of its own, which must not be where processes are forked."""
+        from rich.progress import BarColumn, Progress, ProgressColumn, TextColumn
+        from rich.text import Text
+
+        class Pace(ProgressColumn):
+            """The seconds so far, and those that are left."""
+
+            def render(self, task: "Task") -> Text:  # noqa: ARG002  (the bar knows)
+                return Text(f"{left(*bar.way)}:")
+
+        bar, percent = self, TextColumn("{task.percentage:>3.0f} %")
+        columns = BarColumn(20), percent, Pace(), TextColumn("{task.description}", markup=False)
         self._bar = Progress(
             *columns, console=screen, auto_refresh=ticks, transient=True, redirect_stdout=False, redirect_stderr=False
         )
         self._task = self._bar.add_task("")
         self._seen, self._runs = screen.is_terminal, False
+        self._clock, self._since = clock, 0.0
+        self._done, self._total = 0.0, 0.0
 
-    def show(self, done: int, total: int, text: str) -> None:
-        """So much of it is done, and this is what it is at."""
+    @property
+    def way(self) -> tuple[float, float]:
+        """The share that is done, and the seconds since its beginning."""
+        return self._done / self._total if self._total else 0.0, self._clock() - self._since
+
+    def show(self, done: float, total: float, text: str) -> None:
+        """So much of it is done, and this is what it is at; less than before, or another total, begins anew."""
+        if total != self._total or done < self._done:
+            self._since = self._clock()
+        self._done, self._total = done, total
         self._bar.update(self._task, completed=done, total=total, description=text, refresh=self._runs)
         if self._seen and not self._runs:
             self._runs = True
@@ -116,6 +138,18 @@ class Bar:
         if self._runs:
             self._bar.stop()
             self._runs = False
+
+
+def left(share: float, seconds: float) -> str:
+    """How long it took to come so far, and how long the rest takes at that pace, in words."""
+    rest = (
+        f", about {_time(max(1.0, seconds * (1 - share) / share))} left" if KNOWN <= share < 1 and seconds >= 1 else ""
+    )
+    return _time(seconds) + rest
+
+
+def _time(seconds: float) -> str:
+    return f"{seconds:.0f} s" if seconds < MINUTES_FROM else f"{seconds / 60:.0f} min"
 
 
 def write(*pieces: "RenderableType") -> None:

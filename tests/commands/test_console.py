@@ -4,6 +4,7 @@ import errno
 import io
 import json
 import os
+import re
 import sys
 import unicodedata
 from collections.abc import Callable, Iterator
@@ -16,7 +17,9 @@ from rich.text import Text
 from driveblocks import cli, console
 from driveblocks.bench import runner
 from driveblocks.bench.outcome import Run
-from driveblocks.output import units
+from driveblocks.desk.run import probe
+from driveblocks.maps.problem import Refused
+from driveblocks.output import build
 from driveblocks.prove import archive
 from driveblocks.show.layout import card, heading, table
 from structured_text.visible import file_name, visible
@@ -24,6 +27,8 @@ from structured_text.visible import file_name, visible
 HOSTILE = "\x1b[31mred\x1b]0;t\x07\r\x08\x7f\x9b5m\u202eback\u2066\u200b\u2028\ufeff\U000e0041"
 SEEN = r"\u001b[31mred\u001b]0;t\u0007\u000d\u0008\u007f\u009b5m\u202eback\u2066\u200b\u2028\ufeff\udb40\udc41"
 
+DRAWN = re.compile(r"\r?\x1b\[(?!31m)[\d;?]*[a-zA-Z]")
+"""What a bar is drawn with."""
 Printed = Callable[..., str]
 
 
@@ -99,7 +104,7 @@ def test_what_people_write_stays() -> None:
     ids=lambda words: " ".join(words).replace(HOSTILE, "HOSTILE"),
 )
 def test_words_of_the_command_line(printed: Printed, words: list[str]) -> None:
-    text = printed(*words)
+    text = DRAWN.sub("", printed(*words))
     assert "[31mred" in text.casefold()
     assert all(sign.isprintable() or sign == "\n" for sign in text)
 
@@ -174,16 +179,46 @@ def test_a_terminal_shows_how_far_it_is_until_something_else_is_printed(printed:
             bar.show(3, 7, f"RED {ticks}\x1b[31m")
             bar.close()
             console.write("printed")
-            bar.show(4, 7, "going on")
+            bar.show(5, 7, "going on")
             bar.close()
             bar.close()
 
     text = printed(function=work)
-    seen = [f"RED {ticks}" in text and "3/7" in text and "4/7" in text for ticks in (False, True)]
+    seen = [f"RED {ticks}" in text and " 43 %" in text and " 71 %" in text for ticks in (False, True)]
     assert seen == [Stream.terminal] * 2
     assert text.count("\x1b[?25h") == text.count("\x1b[?25l") == (4 if Stream.terminal else 0), "the cursor is back"
     assert "\x1b[31m" not in text
     assert Stream.terminal or text == "printed\n" * 2
+
+
+def test_how_long_it_takes_still_is_reckoned_from_the_share_that_is_done(printed: Printed) -> None:
+    seconds = [0.0]
+
+    def work() -> None:
+        bar = console.Bar(console.terminal(), ticks=False, clock=lambda: seconds[0])
+        for at, done, total, name in ((100, 0, 8, "one"), (106, 2, 8, "one"), (116, 0, 4, "two"), (119, 3, 4, "two")):
+            seconds[0] = at
+            bar.show(done, total, name)
+        bar.close()
+
+    text = printed(function=work)
+    for words in ("0 s: one", "6 s, about 18 s left: one", "0 s: two", "3 s, about 1 s left: two"):
+        assert (words in DRAWN.sub("", text)) is Stream.terminal
+
+
+@pytest.mark.parametrize(
+    ("share", "seconds", "said"),
+    [
+        (0.0, 5.0, "5 s"),
+        (0.04, 5.0, "5 s"),
+        (0.5, 0.9, "1 s"),
+        (0.5, 50.0, "50 s, about 50 s left"),
+        (0.1, 99.0, "99 s, about 15 min left"),
+        (1.0, 240.0, "4 min"),
+    ],
+)
+def test_a_time_that_is_left_is_said_when_it_can_be_known(share: float, seconds: float, said: str) -> None:
+    assert console.left(share, seconds) == said
 
 
 def test_the_commands_that_take_long_say_on_a_terminal_how_far_they_are(
@@ -195,13 +230,30 @@ def test_the_commands_that_take_long_say_on_a_terminal_how_far_they_are(
 
     monkeypatch.setattr(archive, "run", proofs)
     text = printed("prove", "jscc")
-    assert ("a block" in text and "1/2" in text) is Stream.terminal
+    assert ("a block" in text and "50 %" in text) is Stream.terminal
 
     def run(*given: Any) -> Run:
         given[-1](3, 4, "a drive")
         return Run([], 0.0)
 
     monkeypatch.setattr(runner, "run", run)
-    monkeypatch.setattr(units, "units", lambda *_: [])
     text = printed("test", "jscc")
-    assert ("making the programs" in text and "a drive" in text and "3/4" in text) is Stream.terminal
+    assert ("making the programs" in text and "a drive" in text and "75 %" in text) is Stream.terminal
+
+    def made(*_: object, tell: Callable[[str], None]) -> dict[str, str]:
+        tell(build.PAGES)
+        return {}
+
+    monkeypatch.setattr(build, "files", made)
+    text = printed("build", "jscc", "--to", "siemens")
+    assert all(words in text for words in ("0 %", "the maps", "50 %", "the pages")) is Stream.terminal
+
+    def compiled(*given: Any) -> NoReturn:
+        given[-1](0.5)
+        raise Refused("no more")
+
+    monkeypatch.setattr(probe, "compiled", compiled)
+    Path("my.st").touch()
+    text = printed("run", "my.st")
+    assert all(words in text for words in ("the maps", "75 %", "compiling my.st")) is Stream.terminal
+    assert DRAWN.sub("", text).splitlines()[-1] == "no more"

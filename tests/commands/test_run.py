@@ -125,12 +125,20 @@ def test_a_program_runs_by_a_script_and_leaves_a_trace_and_a_picture(program: Pa
     lines = result.output.splitlines()
     assert all(line.startswith("SIMULATED  ") for line in lines)
     assert lines[1] == "SIMULATED  CHF at unit 1: maximum 60 Hz (100 %), FrequencyScale=0.01,"
-    assert lines[5] == "SIMULATED  JSCC at unit 7: maximum 50 Hz, ReferenceScale=100"
+    assert lines[4] == "SIMULATED  JSCC at unit 7: maximum 50 Hz, ReferenceScale=100"
     assert lines[-1] == "SIMULATED  stopped, and standstill read: Motor"
     rows = Path("t.csv").read_text(encoding="utf-8").splitlines()
     assert rows[:4] == ["# SIMULATED, my.st", "ms,Motor.Running,Hz", "0,0,20", "2000,0,10"]
     assert [row.split(",")[1] for row in rows[2:]] == ["0", "0", "1", "0"]
-    assert "SIMULATED, my.st" in Path("t.svg").read_text(encoding="utf-8")
+    drawn = Path("t.svg").read_text(encoding="utf-8")
+    for words in (
+        "SIMULATED, my.st",
+        "Start := TRUE; Hz := 10.00",
+        "at 5.0 s Start := FALSE",
+        "8 s are over",
+        "forward",
+    ):
+        assert words in drawn
 
 
 def test_a_line_without_rate_and_format_has_those_of_its_block(program: Path) -> None:

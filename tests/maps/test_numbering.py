@@ -130,6 +130,6 @@ def test_the_simulator_says_numbers_where_the_manual_has_them() -> None:
     assert re.search(r"^MX2  coil 0002H \(wire 0001H\)$", shown, re.MULTILINE)
     assert re.search(r"^ *address +coil 0001H = 1$", shown, re.MULTILINE)
     path = catalog.resolve("mx2")
-    told = " ".join(line.strip() for line in Named(path, load(path), 1).told())
+    told = " ".join(line.strip() for line in Named(path, load(path), 1).unwritten())
     assert "reads 0 until written: 0002H-0006H (wire 0001H-0005H), 0011H (wire 0010H)," in told
     assert ", coil 0002H-0003H (wire 0001H-0002H), " in told

@@ -27,10 +27,14 @@ def wanted() -> dict[str, str]:
     return build.files(collection.read([EXAMPLE]), BOTH)
 
 
-def test_two_builds_are_equal_wherever_the_map_is(wanted: dict[str, str], tmp_path: Path) -> None:
+def test_two_builds_are_equal_wherever_the_map_is_and_tell_what_they_make(
+    wanted: dict[str, str], tmp_path: Path
+) -> None:
     elsewhere = tmp_path / "example.yaml"
     elsewhere.write_bytes(EXAMPLE.read_bytes())
-    assert build.files(collection.read([elsewhere]), BOTH) == wanted
+    said: list[str] = []
+    assert build.files(collection.read([elsewhere]), BOTH, tell=said.append) == wanted
+    assert said == [build.BLOCKS, build.PAGES, "iec61131"]
 
 
 def test_a_language_left_out_costs_nothing() -> None:
@@ -52,13 +56,17 @@ def test_english_alone_is_ascii_in_every_file_but_for_the_sign_of_a_degree() -> 
         ("en,zh", 1, "ACME: the map has no Chinese texts: its texts are English alone"),
         ("zh", 0, "ACME: the map has no Chinese texts: it gets no text functions; --lang en makes them"),
         ("en", 1, ""),
+        ("", 1, ""),
     ],
 )
 @pytest.mark.thorough
-def test_a_map_without_chinese_gets_none_and_that_is_said(tmp_path: Path, lang: str, files: int, said: str) -> None:
+def test_a_map_without_chinese_gets_none_and_a_build_that_asked_says_so(
+    tmp_path: Path, lang: str, files: int, said: str
+) -> None:
     path = tmp_path / "acme.yaml"
     path.write_text(page.skeleton(), encoding="utf-8")
-    result = CliRunner().invoke(app, ["build", str(path), "-o", str(tmp_path / "out"), "--lang", lang])
+    asked = ["--lang", lang] if lang else []
+    result = CliRunner().invoke(app, ["build", str(path), "-o", str(tmp_path / "out"), *asked])
     assert result.exit_code == 0
     assert "\n".join(result.stdout.splitlines()[1:]) == said
     assert len(list((tmp_path / "out").rglob("ACME_FaultText*.st"))) == files

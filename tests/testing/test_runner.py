@@ -125,13 +125,14 @@ def test_garbage_is_collected_afterwards_as_before(example: Unit, enabled: bool)
 
 
 @pytest.mark.parametrize("jobs", [1, 2])
-def test_it_says_how_many_programs_have_run(jobs: int, example: Unit, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_it_says_how_far_compiling_and_running_have_come(
+    jobs: int, example: Unit, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.setattr(runner, "LOOK_S", 0.0)
-    told: list[tuple[int, int, str]] = []
+    told: list[tuple[float, float, str]] = []
     given = [only(example, "Scales", "0010H"), only(example, "Frames")]
     runner.run(given, [EmbeddedEngine()], jobs=jobs, tell=lambda *each: told.append(each))
-    total = sum(len(unit.suite.programs) for unit in given)
-    counts = [count for count, _, _ in told]
-    assert (counts[0], counts == sorted(counts), {each for _, each, _ in told}) == (0, True, {total})
-    assert 0 < counts[-1] <= total
-    assert all(text for _, _, text in told)
+    come = [done for done, _, _ in told]
+    assert (come[0], come == sorted(come), {total for _, total, _ in told}) == (0, True, {2 * jobs})
+    assert jobs < come[-1] <= 2 * jobs
+    assert any(0 < done < jobs and "compiling" in text for done, _, text in told)

@@ -7,7 +7,7 @@ from concurrent.futures.process import BrokenProcessPool
 from dataclasses import replace
 from functools import partial
 from itertools import groupby
-from multiprocessing import Value
+from multiprocessing import Array
 from operator import itemgetter
 from typing import Any
 
@@ -31,12 +31,12 @@ BUILDS = 2
 LOOK_S = 0.2
 """Between two looks at how far the processes are."""
 
-Tell = Callable[[int, int, str], None]
+Tell = Callable[[float, float, str], None]
 """Takes how much of how much is done, and what is at hand."""
 
 _Built = Library | EngineError
-_RAN: list[Any] = []
-"""In a process that runs a share: the number of programs that all of them have run."""
+_COME: list[Any] = []
+"""In a process that runs a share: how far each of them has come, from 0 to 2."""
 
 
 def run(  # noqa: PLR0913, PLR0917 - what runs on what, how, and who is told of it
@@ -52,36 +52,44 @@ def run(  # noqa: PLR0913, PLR0917 - what runs on what, how, and who is told of 
     What has run of the blocks is added to the `coverage` of an engine's name, if the engine counts. Where nothing is
     counted, `jobs` processes of the embedded engine compile and run a share of the programs each.
     """
-    start, total = time.perf_counter(), sum(len(unit.suite.programs) for unit in units)
+    start, total = time.perf_counter(), sum(len(unit.suite.programs) for unit in units) or 1
     results: list[Result] = []
     with paused(), ThreadPoolExecutor(BUILDS) as pool:
         for engine in engines:
             sums = [each for each in coverage if each.engine == engine.name]
             if jobs > 1 and engine.name == EMBEDDED and not sums:
-                results += _side_by_side(units, seconds, jobs, lambda ran: tell(ran, total, "compiling, then running"))
+                results += _side_by_side(units, seconds, jobs, tell)
                 continue
-            ran = 0
-            tell(ran, total, f"compiling for {engine.name}")
+            ran, before = 0, 0
+            tell(0, 2, f"compiling for {engine.name}")
+            if isinstance(engine, EmbeddedEngine):  # which compiles all at first; that takes about as long as to run it
+                before, engine.told = 1, partial(_compiling, tell)
             made = zip(units, _builds(engine, units, pool), strict=True)
             for built, those in groupby(made, key=itemgetter(1)):
                 sharing = [unit for unit, _ in those]
                 for unit in sharing:
-                    tell(ran, total, f"{unit.suite.name} on {engine.name}")
+                    for at, result in enumerate(_results(engine, unit, built, seconds)):
+                        results.append(result)
+                        tell(before + (2 - before) * (ran + at) / total, 2, f"{unit.suite.name} on {engine.name}")
                     ran += len(unit.suite.programs)
-                    results += _results(engine, unit, built, seconds)
                 results += [trouble for each in sums for trouble in _counted(each, sharing, built)]
     return Run(results, time.perf_counter() - start)
 
 
-def _side_by_side(units: Sequence[Unit], seconds: float, jobs: int, tell: Callable[[int], None]) -> list[Result]:
+def _compiling(tell: Tell, share: float) -> None:
+    tell(share, 2, f"compiling for {EMBEDDED}")
+
+
+def _side_by_side(units: Sequence[Unit], seconds: float, jobs: int, tell: Tell) -> list[Result]:
     """What the embedded engine finds, in as many processes, in the order of units and programs."""
-    ran = Value("l")
+    come = Array("d", jobs)
     shares = [[_share(unit, at, jobs) for unit in units] for at in range(jobs)]
     try:
-        with ProcessPoolExecutor(jobs, initializer=_counts_in, initargs=(ran,)) as pool:
-            parts = [pool.submit(_embedded, share, seconds) for share in shares]
+        with ProcessPoolExecutor(jobs, initializer=_COME.append, initargs=(come,)) as pool:
+            parts = [pool.submit(_embedded, share, seconds, at) for at, share in enumerate(shares)]
             while wait(parts, LOOK_S).not_done:
-                tell(ran.value)
+                far = sum(come[:])
+                tell(far, 2 * jobs, f"{'compiling for' if far < jobs else 'running on'} {EMBEDDED}")
             found = [result for part in parts for result in part.result()]
     except BrokenProcessPool:  # a process was killed, as for its memory
         return _embedded(units, seconds)
@@ -91,16 +99,18 @@ def _side_by_side(units: Sequence[Unit], seconds: float, jobs: int, tell: Callab
     return sorted(unlike, key=lambda each: (names.index(each.unit), order[each.unit].get(each.program, -1)))
 
 
-def _counts_in(ran: Any) -> None:
-    _RAN.append(ran)
-
-
 def _share(unit: Unit, at: int, jobs: int) -> Unit:
     return replace(unit, suite=replace(unit.suite, programs=unit.suite.programs[at::jobs]))
 
 
-def _embedded(units: Sequence[Unit], seconds: float) -> list[Result]:
-    return run(units, [EmbeddedEngine()], seconds).results
+def _embedded(units: Sequence[Unit], seconds: float, at: int | None = None) -> list[Result]:
+    """What the embedded engine finds, in this process, or in one of several; `at`: which."""
+
+    def tell(done: float, *_: object) -> None:
+        for come in _COME if at is not None else ():
+            come[at] = done
+
+    return run(units, [EmbeddedEngine()], seconds, tell=tell).results
 
 
 def _counted(coverage: Coverage, units: Sequence[Unit], built: _Built) -> Iterator[Result]:
@@ -150,9 +160,6 @@ def _results(engine: Engine, unit: Unit, built: _Built, seconds: float) -> Itera
     setting = Setting(engine.name, name, ROOT, seconds)
     for program in unit.suite.programs:
         yield execute(built, program, setting)
-        for ran in _RAN:
-            with ran.get_lock():
-                ran.value += 1
 
 
 def _preparations(engine: Engine, unit: Unit, built: _Built) -> Iterator[Outcome]:

@@ -3,11 +3,14 @@
 import contextlib
 import sys
 from collections.abc import Iterator, Mapping, Sequence
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
+from click.core import ParameterSource
 
+from driveblocks import console
 from driveblocks.commands import FILE, MAPS, refuse
 from driveblocks.platforms import TARGETS
 
@@ -69,7 +72,8 @@ def run(  # noqa: PLR0913, PLR0917 - one parameter per option of the command lin
     click.echo(f"{folder}: {len(plan.texts) - 1} files for {drives}, {changed} changed")
     for name in plan.kept:
         click.echo(f"{folder / name}: yours, kept as you edited it; build into another folder to see the new one")
-    for note in filter(None, (missing(source.drive, asked.languages) for source in plan.sources)):
+    given = click.get_current_context().get_parameter_source("lang") is not ParameterSource.DEFAULT
+    for note in filter(None, (missing(source.drive, asked.languages) for source in plan.sources if given)):
         click.echo(note)
     for stem in sorted(asked.measured.keys() - {source.path.stem for source in plan.sources}):
         click.echo(f"{site}: {stem} is not built here, and no page shows its drives")
@@ -79,9 +83,17 @@ def _planned(folder: Path, maps: tuple[str, ...], asked: "Wanted") -> "Plan":
     from driveblocks.maps import catalog
     from driveblocks.output import build
 
-    with _told(folder):
-        made = click.get_current_context().obj  # another output, as a test may want it
-        return build.plan(folder, catalog.chosen(maps), asked, made or build.files)
+    made = click.get_current_context().obj  # another output, as a test may want it
+    steps = ["the maps", build.BLOCKS, build.PAGES, *asked.targets]
+    with _told(folder), contextlib.closing(console.Bar(console.terminal("stderr"))) as bar:
+
+        def tell(name: str) -> None:
+            if name not in steps:  # a target that the folder was built for before
+                steps.append(name)
+            bar.show(steps.index(name), len(steps), name)
+
+        tell(steps[0])
+        return build.plan(folder, catalog.chosen(maps), asked, made or partial(build.files, tell=tell))
 
 
 def _carried_out(folder: Path, maps: tuple[str, ...], asked: "Wanted", force: bool) -> "Plan":

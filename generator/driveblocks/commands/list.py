@@ -65,12 +65,12 @@ def _print_table(loaded: "dict[Path, Drive]") -> None:
     from driveblocks.maps import counts, trust, view
     from driveblocks.show.layout import both, table
 
-    kinds = ("registers", "faults", "frames", "errata")
+    kinds = ("registers", "faults", "frames")  # what finds room at 80 columns beside a maker's whole name
     made = table("drive", "blocks", "family", *kinds, wide=("family",), numbers=kinds)
     for path, drive in loaded.items():
         held = counts.of_drive(drive)
         family = both(view.title(drive), drive.family.own)
-        numbers = (held.total.registers, held.faults, held.frames, held.errata)
+        numbers = (held.total.registers, held.faults, held.frames)
         made.add_row(path.stem, f"{drive.prefix}_*", family, *map(str, numbers))
     console.write(made)
     for path, drive in loaded.items():

@@ -43,6 +43,7 @@ def run(maps: tuple[str, ...], junit: Path | None, rules: bool) -> None:
     done: list[Result] = []
     try:
         with closing(console.Bar(console.terminal("stderr"))) as bar:
+            bar.show(0, 1, "the maps")
             for each, kept in archive.run(sources(maps), tell=bar.show):
                 bar.close()
                 _print(each, kept=kept, rules=rules)

@@ -51,7 +51,7 @@ USUAL_SCAN = "10ms"
     "--scenario", type=FILE, metavar="FILE.yaml", help="What happens to simulated drives, such as - at 3 s: trip OC 2"
 )
 @click.option("--trace", type=FILE, metavar="FILE.csv", help="Write what the shown variables did.")
-@click.option("--picture", type=FILE, metavar="FILE.svg", help="Draw a timing diagram of the shown variables.")
+@click.option("--picture", type=FILE, metavar="FILE.svg", help="Draw what the drives did, and the shown variables.")
 @click.option("--allow-run", is_flag=True, help="Send more than reads and stops on a real port; asks first.")
 @click.option("--demo", is_flag=True, help="Two pumps and a fan of three makes, simulated, fifteen seconds.")
 @click.option("--fast", is_flag=True, help="With simulated drives: do not wait between scans.")

@@ -98,8 +98,7 @@ def run(  # noqa: PLR0913, PLR0917 - one parameter per option of the command lin
     measured = [Coverage(each.name) for each in engines] if coverage or require_coverage is not None else []
     some = [counting(each) for each in engines] if measured else engines
     with closing(console.Bar(console.terminal("stderr"), ticks=False)) as bar:  # it forks
-        bar.show(0, len(read), "making the programs")
-        made = making(read, both)
+        made = making(read, both, bar.show)
         programs = runner.run(made, some, time_limit, measured, jobs or min(4, os.cpu_count() or 1), bar.show)
     done = Run([*programs.results, *(result(each, require_coverage or 0.0) for each in measured)], programs.seconds)
     if junit is not None:

@@ -8,7 +8,8 @@ from pathlib import Path
 
 from driveblocks.desk import record
 from driveblocks.desk.port import reason
-from driveblocks.desk.record import Timing, Trace
+from driveblocks.desk.record import Trace
+from driveblocks.desk.run.picture import HEAD, Mark, Timing
 from driveblocks.desk.words import spare
 from structured_text import files
 from structured_text.engines.engine import Value
@@ -105,15 +106,14 @@ def trace(path: Path, names: Sequence[str], port: str, *, waits: bool) -> Record
     return Recorder(file_name(path), keep, waits=waits)
 
 
-def picture(path: Path, names: Sequence[str], port: str, *, waits: bool) -> Recorder:
-    """A timing diagram as SVG. Raises OSError."""
-    _tried(path, record.PICTURE)
+def picture(path: Path, made: Timing, marks: Sequence[Mark], *, waits: bool) -> Recorder:
+    """A picture as SVG, with the marks that there are in the end. Raises OSError."""
+    _tried(path, HEAD)
 
     def keep(rows: Iterator[Row]) -> None:
-        made = Timing(names, port)
         for row in rows:
             made.add(*row)
-        files.put(path, made.svg())
+        files.put(path, made.svg(marks))
 
     return Recorder(file_name(path), keep, waits=waits)
 

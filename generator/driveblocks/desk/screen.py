@@ -2,26 +2,31 @@
 
 import sys
 from collections import deque
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
 from rich.columns import Columns
-from rich.console import Console, Group
+from rich.console import Console, Group, RenderableType
 from rich.live import Live
+from rich.padding import Padding
 from rich.table import Table
 from rich.text import Text
 
 from driveblocks import console
-from driveblocks.desk.seen import Seen, View, spelled
+from driveblocks.desk.seen import Seen, View, is_bad, spelled
 from structured_text.engines.engine import Value
 
 HELP = "Type a number to toggle, NAME := VALUE, or help; q stops all and ends."
 BAD, GOOD = "bold red1", "bold green4"
 """Colours of fixed shade, readable on black and on white; the red and green of a palette are too dark or too bright."""
-WHY = "why"
-LONGEST_STATE = "reverse, at speed"
-"""For which there is always room, lest columns jump."""
+COLUMNS = ("drive", "unit", "0 to maximum", "Hz", "asked", "state")
+LONGEST_NAME, BAR = 24, 20
+"""Columns of a drive's name, and of its speed."""
+ROWS, ROOM = 4, 8
+"""Rows of a terminal that a drive may take with its reason, and those of everything else."""
+LAST = 3
+"""Lines of what was said that are seen in any case."""
 MOST_SAID = 200
 WIDE = 110
 """Columns from which there is room for plots."""
@@ -86,12 +91,10 @@ class Heading:
     label: str
     title: str
     real: bool
-    remark: str = WHY
-    """What the last column of the table shows."""
 
 
 class Plots:
-    """The frequency of each drive over the last seconds, on a terminal that has room for it."""
+    """The frequency of each drive, now and, on a terminal that has room for it, over the last seconds."""
 
     def __init__(self, terminal: Console) -> None:
         self._terminal = terminal
@@ -102,6 +105,19 @@ class Plots:
     def fit(self) -> bool:
         """Whether there is room, and the terminal has the characters."""
         return self._terminal.width >= WIDE and not self._terminal.options.ascii_only
+
+    def rows(self, drives: int) -> int:
+        """How many rows each of so many drives has room for."""
+        return (self._terminal.height - ROOM) // max(1, drives)
+
+    def bar(self, drive: Seen) -> str:
+        """How much of its maximum a drive turns at; up to what it is asked for, or what is above that."""
+        if drive.hertz is None or drive.most_hz <= 0:
+            return ""
+        turns, missing, above, free = "#-+." if self._terminal.options.ascii_only else "█░▓·"
+        now, asked = (round(BAR * min(1.0, abs(hertz) / drive.most_hz)) for hertz in (drive.hertz, drive.asked_hz))
+        rest = missing * (asked - now) if now < asked else above * (now - asked)
+        return (turns * min(now, asked) + rest).ljust(BAR, free)
 
     def add(self, view: View) -> None:
         if view.at_us >= self._next_us:
@@ -163,7 +179,7 @@ class Desk:
         height = self._console.height - 1
         with self._console.capture() as capture:
             self._console.print(Group(*_parts(self._heading, view, self._plots), *_keys(view)))
-        table = capture.get().splitlines()[:height]
+        table = capture.get().splitlines()[: height - min(LAST, len(self._said))]
         rows = [*table, *list(self._said)[max(0, len(self._said) + len(table) - height) :]]
         rows += [""] * (height - len(rows))
         drawn = "\r\n".join(f"{row}\x1b[K" for row in rows)
@@ -179,12 +195,12 @@ class Desk:
             self._console.print(Group(*_parts(self._heading, self._view, self._plots)))
 
 
-def _parts(heading: Heading, view: View, plots: Plots) -> list[Table | Text]:
+def _parts(heading: Heading, view: View, plots: Plots) -> list[RenderableType]:
     head = Text.assemble(
         (f" {heading.label} ", "bold white on red" if heading.real else "bold reverse"),
         f"  {heading.title}  {view.at_us / 1e6:.1f} s",
     )
-    parts: list[Table | Text] = [head, _drives(view.drives, heading.remark, plots)]
+    parts: list[RenderableType] = [head, *_drives(view.drives, plots)]
     if view.port_error:
         parts.append(Text(f"the port does not work: {view.port_error}", BAD))
     if view.dropped:
@@ -200,26 +216,39 @@ def _keys(view: View) -> list[Columns | Text]:
     return [Text(), Columns(words, padding=(0, 3)), Text(HELP)] if words else []
 
 
-def _drives(drives: Sequence[Seen], remark: str, plots: Plots) -> Table:
-    table = Table(box=None, padding=(0, 2, 0, 0), header_style="bold")
-    table.add_column("drive", overflow="fold", min_width=5)
-    table.add_column("unit", justify="right", no_wrap=True)
-    table.add_column("state", min_width=len(LONGEST_STATE))
-    for name in ("asked", "Hz"):
-        table.add_column(name, justify="right", no_wrap=True, min_width=5)
-    if plots.fit:
-        table.add_column(f"Hz, last {PLOTTED * PLOT_US // 1_000_000} s", no_wrap=True, min_width=PLOTTED)
-    table.add_column(remark, min_width=20, no_wrap=remark != WHY)  # a reason is a sentence, anything else numbers
+def _drives(drives: Sequence[Seen], plots: Plots) -> Iterator[RenderableType]:
+    """A row for each drive, and below it why it is so, and what to do.
+
+    With less room that is cut to a row; with none it is there only where there is something to do.
+    """
+    rows = plots.rows(len(drives))
+    name = max([5, *(min(len(each.name), LONGEST_NAME) for each in drives)])
+    last = [f"Hz, last {PLOTTED * PLOT_US // 1_000_000} s"] if plots.fit else []
+    yield _row(name, (*COLUMNS[:-1], *last, COLUMNS[-1]), "bold")
     for each in drives:
         hertz = "-" if each.hertz is None else f"{each.hertz:.1f}"
-        state = Text(each.state, _style(each.state))
         plot = [plots.line(each)] if plots.fit else []
-        table.add_row(each.name, str(each.unit), state, f"{each.asked_hz:.1f}", hertz, *plot, each.why)
-    return table
+        row = (each.name, str(each.unit), plots.bar(each), hertz, f"{each.asked_hz:.1f}", *plot)
+        yield _row(name, (*row, Text(each.state, _style(each.state))))
+        if each.remedy or rows > 1:
+            told = Text.assemble(each.why, (f" - {each.remedy}", "bold") if each.remedy else "")
+            told.no_wrap, told.overflow = rows < ROWS, "ellipsis" if rows < ROWS else "fold"
+            yield Padding(told, (0, 0, 0, name + 2))
+
+
+def _row(name: int, cells: Sequence[str | Text], style: str = "") -> Table:
+    """Cells in columns that are as wide in every row."""
+    row = Table.grid(padding=(0, 2, 0, 0))
+    widths = (name, 4, BAR, 6, 6, *([PLOTTED] if len(cells) > len(COLUMNS) else ()))
+    for width, right in zip(widths, (False, True, False, True, True, False), strict=False):
+        row.add_column(width=width, justify="right" if right else "left", overflow="fold")
+    row.add_column(overflow="fold")
+    row.add_row(*cells, style=style)
+    return row
 
 
 def _style(state: str) -> str:
-    if state.startswith(("fault", "STOP", "no reply")):
+    if is_bad(state):
         return BAD
     return GOOD if state.startswith(("forward", "reverse", "running")) else ""
 

@@ -1,5 +1,6 @@
 """What a screen shows of drives at a moment."""
 
+from contextlib import suppress
 from dataclasses import dataclass
 
 from structured_text.engines.engine import Value
@@ -13,6 +14,10 @@ class Seen:
     asked_hz: float
     hertz: float | None
     why: str
+    remedy: str = ""
+    """What a person does about it; empty for nothing, or to wait."""
+    most_hz: float = 0.0
+    """Its maximum; 0.0 where that is not known."""
 
 
 @dataclass(frozen=True)
@@ -27,6 +32,18 @@ class View:
     port_error: str = ""
 
 
+def text(value: bytes) -> str:
+    """A STRING: UTF-8 where it can be, as texts of the library are, else each byte a character."""
+    with suppress(UnicodeDecodeError):
+        return value.decode("utf-8")
+    return value.decode("latin-1")
+
+
+def is_bad(state: str) -> bool:
+    """Whether a state is one that nobody wants."""
+    return state.startswith(("fault", "STOP", "no reply"))
+
+
 def spelled(value: Value) -> str:
     """A value in the words of ST, a REAL with two places."""
     if isinstance(value, bool):
@@ -34,5 +51,5 @@ def spelled(value: Value) -> str:
     if isinstance(value, float):
         return f"{value:.2f}"
     if isinstance(value, bytes):
-        return value.decode("latin-1")
+        return text(value)
     return f"{value:d}" if isinstance(value, int) else "..."

@@ -53,8 +53,12 @@ class Canvas:
         attributes = (f' class="{kind}"' if kind else "") + (f' text-anchor="{anchor}"' if anchor != "start" else "")
         self.body.append(f'<text x="{x:g}" y="{y:g}"{attributes}>{escaped(words)}</text>')
 
-    def box(self, x: float, y: float, width: float, height: float, kind: str = "box") -> None:
-        self.body.append(f'<rect class="{kind}" x="{x:g}" y="{y:g}" width="{width:g}" height="{height:g}" rx="4"/>')
+    def box(  # noqa: PLR0913, PLR0917 - where, how large, how it looks and what it says
+        self, x: float, y: float, width: float, height: float, kind: str = "box", told: str = ""
+    ) -> None:
+        """`told`: what a pointer above it reads."""
+        end = f"><title>{escaped(told)}</title></rect>" if told else "/>"
+        self.body.append(f'<rect class="{kind}" x="{x:g}" y="{y:g}" width="{width:g}" height="{height:g}" rx="4"{end}')
 
     def path(self, points: list[tuple[float, float]], kind: str = "line") -> None:
         way = " ".join(f"{x:g},{y:g}" for x, y in points)
@@ -74,8 +78,32 @@ class Canvas:
             [(x - 7 * dx - 4 * dy, y - 7 * dy - 4 * dx), (x, y), (x - 7 * dx + 4 * dy, y - 7 * dy + 4 * dx)], kind
         )
 
+    @property
+    def page(self) -> list[str]:
+        """Its paper, and what is on it."""
+        page = f'<rect class="page" x="0.5" y="0.5" width="{self.width - 1}" height="{self.height - 1}" rx="6"/>'
+        return [page, *self.body]
+
     def svg(self) -> str:
         size = f'width="{self.width}" height="{self.height}" viewBox="0 0 {self.width} {self.height}"'
-        page = f'<rect class="page" x="0.5" y="0.5" width="{self.width - 1}" height="{self.height - 1}" rx="6"/>'
-        head = [f'<svg xmlns="http://www.w3.org/2000/svg" {size} role="img">', f"<title>{escaped(self.title)}</title>"]
-        return "\n".join([*head, f"<style>{STYLE}</style>", page, *self.body, "</svg>"]) + "\n"
+        return _whole(size, self.title, STYLE, self.page)
+
+
+def folding(wide: Canvas, narrow: Canvas) -> str:
+    """One picture in two layouts: a window that has no room for the wide one shows the narrow one."""
+    style = f"""{STYLE}
+:root {{ width: {wide.width}px; height: {wide.height}px }}
+.narrow {{ display: none }}
+@media (max-width: {wide.width - 1}px) {{
+:root {{ width: {narrow.width}px; height: {narrow.height}px }}
+.wide {{ display: none }}
+.narrow {{ display: inline }}
+}}"""
+    layouts = {"wide": wide.page, "narrow": narrow.page}
+    body = [line for name, page in layouts.items() for line in (f'<g class="{name}">', *page, "</g>")]
+    return _whole(f'width="{wide.width}" height="{wide.height}"', wide.title, style, body)
+
+
+def _whole(size: str, title: str, style: str, body: list[str]) -> str:
+    head = [f'<svg xmlns="http://www.w3.org/2000/svg" {size} role="img">', f"<title>{escaped(title)}</title>"]
+    return "\n".join([*head, f"<style>{style}</style>", *body, "</svg>"]) + "\n"

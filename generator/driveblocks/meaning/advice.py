@@ -41,6 +41,11 @@ def _clears(drive: Drive, fault: Fault) -> str:
     return "`FaultReset`" if "fault_reset" in words(drive).named else "nothing on the bus; reset it at the drive"
 
 
+def of_code(drive: Drive, code: int) -> Advice | None:
+    """Of the fault with this code; None where the map has none such."""
+    return next((_advice(drive, one) for one in drive.faults.codes if one.code == code), None)
+
+
 def asked(drive: Drive, word: str) -> list[Advice]:
     """What a word means: a display, or a code in decimal, or in hexadecimal with H or 0x; all that fit."""
     upper = word.strip().upper()

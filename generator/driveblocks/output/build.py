@@ -18,22 +18,26 @@ from driveblocks.render.text import Language, told
 
 READ = 1
 """Families whose test programs are written beside those of the shared blocks, to be read; `test` makes those of all."""
+BLOCKS, PAGES = "the blocks", "the pages"
 SHOWN = 20
 """Files that a refusal names; the rest are counted."""
 
 
-def files(
+def files(  # noqa: PLR0913, PLR0917 - what is made of what, for what, and who is told of it
     sources: list[Source],
     languages: list[Language],
     targets: Collection[str] = (CANONICAL,),
     measured: Mapping[str, Sequence[Measured]] | None = None,
     without: Collection[str] = (),
+    tell: Callable[[str], None] = lambda _: None,
 ) -> dict[str, str]:
     """Every file of the output, path below the output folder -> text. The same input gives the same text.
 
-    `measured`: name of a map -> what was found of one drive each, for the page of its block; `without`: extras.
+    `measured`: name of a map -> what was found of one drive each, for the page of its block; `without`: extras;
+    `tell` is called with what is made next: BLOCKS, PAGES, then each target.
     Raises ExportError with everything that a target cannot say.
     """
+    tell(BLOCKS)
     sources = [replace(source, drive=told(source.drive, languages)) for source in sources]
     made = [*library.generic(languages)]
     for source in sources:
@@ -45,15 +49,17 @@ def files(
         )
         for source in sources
     }
+    tell(PAGES)
     drives = {source.path.stem: source.drive for source in sources}
     stock = shelf(made, drives, languages)
     units = [part.unit for part in stock.parts]
     texts = documents(made, [*drives.values()], own, targets=targets, units=units)
     if CANONICAL in targets:
+        tell(CANONICAL)
         texts |= {f"{CANONICAL}/{file.path}": file.text for file in made}
         texts[f"{CANONICAL}/order.txt"] = "".join(f"{file.path}\n" for file in made)
         texts |= _tests(sources[:READ], languages)
-    return texts | writers.files(stock, targets)
+    return texts | writers.files(stock, targets, tell)
 
 
 def _tests(sources: list[Source], languages: list[Language]) -> dict[str, str]:

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator, Sequence
 
+from driveblocks.bench.runner import Tell
 from driveblocks.bench.suite import drive_suite, shared_suite
 from driveblocks.bench.unit import Unit
 from driveblocks.maps.collection import Source
@@ -14,14 +15,17 @@ OTHERS = tuple(
     f"/MB_{line}{slots}.st" for line in ("Line", "ByteLine") for slots in library.LINE_SIZES if slots != library.USUAL
 )
 """Shared blocks that no test of a drive needs: their statements are those of the line for 8 drives."""
+MAKING = "making the programs"
 
 
-def units(sources: Sequence[Source], languages: list[Language]) -> list[Unit]:
+def units(sources: Sequence[Source], languages: list[Language], tell: Tell = lambda *_: None) -> list[Unit]:
     """The shared blocks, then each drive with the shared blocks that it needs. Raises ValueError, as rendering does."""
+    tell(0, len(sources) + 1, MAKING)
     generic = tuple(_sources(library.generic(languages)))
     made = [Unit(shared_suite(languages), generic)]
     needed = tuple(block for block in generic if not block.path.endswith(OTHERS))
-    for source in sources:
+    for at, source in enumerate(sources, 1):
+        tell(at, len(sources) + 1, MAKING)
         own = _sources(library.drive(source.path.stem, source.drive, languages))
         made.append(Unit(drive_suite(source, languages), (*needed, *own)))
     return made

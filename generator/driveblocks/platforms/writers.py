@@ -20,11 +20,15 @@ def writer(platform: str) -> Writer:
     return made
 
 
-def files(shelf: Shelf, targets: Collection[str]) -> dict[str, str]:
-    """The files of some platforms, by their paths. Raises ExportError with everything that they cannot say."""
+def files(shelf: Shelf, targets: Collection[str], tell: Callable[[str], None] = lambda _: None) -> dict[str, str]:
+    """The files of some platforms, by their paths; `tell` is called with the name of each.
+
+    Raises ExportError with everything that they cannot say.
+    """
     made: dict[str, str] = {}
     problems: list[Problem] = []
     for target in (each for each in EXPORTS if each in targets):
+        tell(target)
         try:
             made |= {f"{target}/{path}": text for path, text in writer(target)(shelf).items()}
         except ExportError as error:

@@ -21,6 +21,7 @@ from structured_text.engines.engine import Source as Text
 
 GENERIC = "every drive"
 """How the blocks are called that every drive shares."""
+READING = "reading the blocks"
 LARGE = tuple(f"Line{slots}" for slots in library.LINE_SIZES)
 """What the names of blocks end with that only hand from one block to the next, slot by slot; no rule is about them."""
 
@@ -79,22 +80,29 @@ def proved(
     sources: Sequence[Text], subjects: Mapping[str, Sequence[Subject]], tell: Tell = lambda *_: None
 ) -> Iterator[Proved]:
     """The proofs of each unit's subjects; parts that they name are proved elsewhere. UnsupportedError, CheckError."""
+    tell(0, 1, READING)
     asked = [(unit, each) for unit, some in subjects.items() for each in some]
     named = {name for _, each in asked for name in each.inside.values()} - {each.block for _, each in asked}
     parts = [each for each in rules.shared() if each.block in named]
     made = models(sources, [*parts, *(each for _, each in asked)])
     replay = Replay(sources, made)
     by_name = {each.pou.name: each for each in made}
-    for (unit, _), model in zip(asked, made[len(parts) :], strict=True):
-        begin = time.perf_counter()
-        parts_of = model.subject.inside.items()
-        inside = {name: by_name[block] for name, block in parts_of if name.upper() in model.pou.symbols}
-        every, proofs = list(questions(model, inside)), list[Proof]()
-        tell(0, len(every), f"{model.pou.name} ({unit})")
-        for each in answers(every, exact=model.subject.exact):
+    every = [list(questions(model, _inside(model, by_name))) for model in made[len(parts) :]]
+    done, total = 0, sum(map(len, every))
+    for (unit, _), model, some in zip(asked, made[len(parts) :], every, strict=True):
+        begin, proofs = time.perf_counter(), list[Proof]()
+        tell(done, total, f"{model.pou.name} ({unit})")
+        for each in answers(some, exact=model.subject.exact):
             proofs.append(_replayed(replay, model, each))
-            tell(len(proofs), len(every), f"{model.pou.name} ({unit})")
+            tell(done + len(proofs), total, f"{model.pou.name} ({unit})")
+        done += len(proofs)
         yield Proved(unit, model, tuple(proofs), time.perf_counter() - begin)
+
+
+def _inside(model: Model, by_name: Mapping[str, Model]) -> dict[str, Model]:
+    """The parts of a block that are proved on their own, by the names of their instances."""
+    parts = model.subject.inside.items()
+    return {name: by_name[block] for name, block in parts if name.upper() in model.pou.symbols}
 
 
 def _replayed(replay: Replay, model: Model, answer: Answer) -> Proof:

@@ -117,10 +117,17 @@ def test_what_is_set_is_printed_with_the_defaults() -> None:
         "CHF at unit 7: maximum 60 Hz (100 %), FrequencyScale=0.01,",
         "  CurrentScale=0.1, VoltageScale=0.01, DcVoltageScale=0.01,",
         "  PowerScale=0.01",
-        "  reads 0 until written: 3007H-300DH, 3010H, 3012H-3014H",
     ]
+    assert chf.unwritten() == ["  reads 0 until written: 3007H-300DH, 3010H, 3012H-3014H"]
     assert jscc.told() == ["JSCC at unit 1: maximum 50 Hz, ReferenceScale=100"]
     assert shuen.told()[0].startswith("SN300G5 at unit 2: maximum 50 Hz, CurrentScale=0.01,")
+    assert jscc.unwritten() == []
+    assert list(called.told([jscc, chf])) == [
+        *jscc.told(),
+        *chf.told(),
+        "11 registers read 0 until written: see driveblocks simulate DRIVE",
+    ]
+    assert list(called.told([jscc])) == jscc.told()
 
 
 @pytest.mark.parametrize(

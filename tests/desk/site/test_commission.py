@@ -60,7 +60,7 @@ class Person:
     def say(self, what: object) -> None:
         assert what
 
-    def progress(self, done: int, total: int, text: str) -> None:
+    def progress(self, done: float, total: float, text: str) -> None:
         assert 0 <= done <= total
         assert text
 

@@ -217,6 +217,11 @@ def outer(body: str) -> str:
         ("Part(Total := n);", "implicit-conversion: expected DINT, found INT"),
         ("Part(Total := Sum, Done := ok);", "call-arguments: expected => for the VAR_OUTPUT Done"),
         ("Part(Total := Sum, Totl := Sum);", "call-arguments: expected a parameter of Inner, found Totl (did you mean"),
+        (
+            "Part(Total := Sum, Whole := Sum);",
+            "call-arguments: expected First, Second, Total, Done of Inner, found Whole",
+        ),
+        ("n := Twice(Number := 1);", "call-arguments: expected Value, Factor of Twice, found Number"),
         ("Part(Total := Sum, Total := Sum);", "call-arguments: expected Total of Inner once, found it twice"),
         ("n := Twice(1);", "call-arguments: expected an argument for Factor of Twice: give all, or name each"),
         ("Part.Total := Sum;", "write-to-output: expected a variable before :=, found Total of a block"),

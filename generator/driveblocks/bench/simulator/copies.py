@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from decimal import Decimal
 
 from driveblocks.bench.simulator.habits import Habits
-from driveblocks.maps.form import Span, span_text
+from driveblocks.maps.form import Span
 from driveblocks.maps.model import Drive, Register
 from driveblocks.maps.plan import merged
 from driveblocks.meaning.measure import measures
@@ -77,11 +77,11 @@ def _bits(row: Register) -> tuple[tuple[int, str], ...]:
     return tuple((each.bit.first, each.name) for each in row.bits if each.name)
 
 
-def zeros(drive: Drive, known: Iterable[int]) -> str:
-    """The registers of a map that read 0 until somebody writes them; empty for none."""
+def zeros(drive: Drive, known: Iterable[int]) -> tuple[Span, ...]:
+    """The registers of a map that read 0 until somebody writes them."""
     told = {one.last.register for one in words(drive).commands} | {reference(drive).register}
     taken, free = {*known, *told}, list[int]()
     for section, row in drive.registers():
         if "r" in (row.access or section.access) and not row.unused:
             free += (each for each in row.address if each not in taken)
-    return ", ".join(span_text(span) for span in merged(Span(each, each) for each in free))
+    return tuple(merged(Span(each, each) for each in free))

@@ -132,8 +132,8 @@ class Table:
     watchdog: Watchdog | None
     own_address: int | None
     """The register that shows its unit address until somebody writes it."""
-    zeros: str
-    """Registers that read 0 until somebody writes them, in words."""
+    zeros: tuple[Span, ...]
+    """Registers that read 0 until somebody writes them."""
 
 
 def table(drive: Drive, habits: Habits, *, ascii_mode: bool = False) -> Table:

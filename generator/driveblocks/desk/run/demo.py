@@ -102,6 +102,7 @@ class Demo:
         act = self._act = self._waiting.pop(0)
         self._begun_us = at_us
         self._session.told.put(act.says)
+        self._session.marks.append((at_us, act.says))
         act.happens(self._fan)
         for name, value in act.sets.items():
             self._session.controller.instance[name] = value

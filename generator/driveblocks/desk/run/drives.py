@@ -15,6 +15,7 @@ from driveblocks.bench.simulator.habits import Habits
 from driveblocks.desk.run.controller import Controller
 from driveblocks.desk.run.wiring import DriveBlock
 from driveblocks.maps.collection import Source
+from driveblocks.maps.form import Span, span_text
 from driveblocks.maps.model import Drive
 from driveblocks.maps.problem import Refused
 from driveblocks.meaning.measure import PINS, measures
@@ -62,15 +63,23 @@ class Named:
             self.drive, self.unit, Habits(maximum_hz=self.maximum_hz, scales=scales), ascii_mode=ascii_mode
         )
 
+    @property
+    def zeros(self) -> tuple[Span, ...]:
+        """Its registers that read 0 until somebody writes them."""
+        return self.made(ascii_mode=False).table.zeros
+
     def told(self) -> list[str]:
         """What it is set to, in lines."""
         full = " (100 %)" if reference(self.drive).percent else ""
         given = dict(self.scales)
         scales = [f"{name}={given.get(name, _usual(name))}" for name in open_scales(self.drive)]
         text = ", ".join((f"{self.drive.prefix} at unit {self.unit}: maximum {self.maximum_hz} Hz{full}", *scales))
-        zeros = self.made(ascii_mode=False).table.zeros
-        lines = [text, f"  reads 0 until written: {zeros}"] if zeros else [text]
-        return [row for line in lines for row in textwrap.wrap(line, WIDTH, subsequent_indent="  ")]
+        return textwrap.wrap(text, WIDTH, subsequent_indent="  ")
+
+    def unwritten(self) -> list[str]:
+        """The registers that read 0, in lines."""
+        spans = ", ".join(map(span_text, self.zeros))
+        return textwrap.wrap(f"  reads 0 until written: {spans}", WIDTH, subsequent_indent="  ") if spans else []
 
 
 def open_scales(drive: Drive) -> dict[str, int]:
@@ -111,6 +120,14 @@ def of_program(
     for block in program.wiring.drives if drives is None else drives:
         if unit := program.unit(block):
             yield Named(known[block.prefix].path, known[block.prefix].drive, unit)
+
+
+def told(drives: Sequence[Named]) -> Iterator[str]:
+    """What some drives are set to, and how many of their registers read 0, in lines."""
+    for one in drives:
+        yield from one.told()
+    if count := sum(len(range(each.first, each.last + 1)) for one in drives for each in one.zeros):
+        yield f"{count} registers read 0 until written: see driveblocks simulate DRIVE"
 
 
 def _facts(drive: Drive, one: Word, option: str) -> tuple[int, dict[str, str]]:

@@ -1,7 +1,7 @@
 """A program after its first scan, without a port: what it says of its line and its drives before anything is sent."""
 
 import threading
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 from driveblocks.desk.bus import Bus
 from driveblocks.desk.clock import VirtualClock
@@ -13,10 +13,16 @@ from driveblocks.maps.problem import Refused
 from structured_text.engines.engine import BuildError, ScanError
 
 
-def compiled(name: str, text: str, maps: Sequence[Map], program: str | None = None) -> source.Loaded:
-    """Compile a text; `name` is what its messages begin with. Raises Refused."""
+def compiled(
+    name: str,
+    text: str,
+    maps: Sequence[Map],
+    program: str | None = None,
+    tell: Callable[[float], None] = lambda _: None,
+) -> source.Loaded:
+    """Compile a text; `name` is what its messages begin with; `tell` takes the share done. Raises Refused."""
     try:
-        return source.load(name, text, maps, program)
+        return source.load(name, text, maps, program, tell)
     except BuildError as error:
         raise Refused(f"{error}{source.advice(str(error))}") from None
 

@@ -17,11 +17,12 @@ from driveblocks.desk.run.controller import Controller, LineEnd
 from driveblocks.desk.run.gate import Gate, GivenUp
 from driveblocks.desk.run.look import look
 from driveblocks.desk.run.pace import Pace
+from driveblocks.desk.run.picture import Mark
 from driveblocks.desk.run.play import Plays
 from driveblocks.desk.run.stopper import Stop, Stopper, speech
 from driveblocks.desk.run.watchdog import Watchdog
 from driveblocks.desk.script import Setting
-from driveblocks.desk.seen import View
+from driveblocks.desk.seen import View, spelled
 from driveblocks.maps.model import Drive
 from structured_text.engines.engine import ScanError
 
@@ -67,6 +68,8 @@ class Session:
         self.shown: tuple[str, ...] = ()
         self.recorders: list[Recorder] = []
         self.recorded: tuple[str, ...] = ()
+        self.marks: list[Mark] = []
+        """What has happened, for a picture: the end, too."""
         self.steps: list[Step] = []
         """What else is done before each scan, in this order."""
         self.halt: Callable[[], None] = _halt
@@ -156,10 +159,12 @@ class Session:
         while self._done < len(self.script) and self.script[self._done].at_us <= since:
             setting = self.script[self._done]
             instance[setting.name] = setting.value
+            self.marks.append((since, f"{setting.name} := {spelled(setting.value)}"))
             self._done += 1
         self._take(since)
         if self.play is not None:
             for says in self.play.due(since):
+                self.marks.append((since, says))
                 self.told.put(f"{since / 1e6:5.1f} s  {says}")
         for step in self.steps:
             step(since)
@@ -183,6 +188,7 @@ class Session:
                 else:
                     setting = typed(line, program.wiring.inputs, program.instance)
                     program.instance[setting.name] = setting.value
+                    self.marks.append((since, f"{setting.name} := {spelled(setting.value)}"))
             except ValueError as error:
                 self.told.put(str(error))
 
@@ -227,6 +233,7 @@ class Session:
         taken = [gate.take() for gate in self._gates]
         if self._crash:
             self.ending.reason = self.ending.reason or f"the program has failed: {self._crash}"
+        self.marks.append((self._clock.now_us() - self._begun_us, self.ending.reason))
         for each in self.recorders:
             each.end()
         controller, told = self.controller if self.pace.scans else self.known, self.told

@@ -3,7 +3,7 @@
 import difflib
 import sys
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import ExitStack, suppress
+from contextlib import ExitStack, closing, suppress
 from dataclasses import dataclass, replace
 from itertools import chain
 from pathlib import Path
@@ -18,10 +18,11 @@ from driveblocks.desk.port import Port, WirePort
 from driveblocks.desk.run import demo, live, probe, source
 from driveblocks.desk.run.controller import Controller, LineEnd
 from driveblocks.desk.run.departure import Departure
-from driveblocks.desk.run.drives import Named, named, of_program, words
+from driveblocks.desk.run.drives import Named, named, of_program, told, words
 from driveblocks.desk.run.options import Options
 from driveblocks.desk.run.options import wrong as mistakes_of
 from driveblocks.desk.run.permission import strangers
+from driveblocks.desk.run.picture import Timing
 from driveblocks.desk.run.play import Play, Plays
 from driveblocks.desk.run.session import Result, Session
 from driveblocks.desk.run.simulated import Simulation
@@ -82,12 +83,14 @@ class Setup:
         self._departure = Departure(LEAVE_S * self._pause)
         self._stack = ExitStack()
         self._path = demo.path() if options.demo else options.program or Path()
-        if console.terminal().is_terminal:
-            console.write(f"{self.label}  compiling {file_name(self._path.name)}")
         self._given = given
-        self._maps = given.maps if given else source.asked(options.maps, [one.name for one in words(options.simulate)])
-        name, text = file_name(catalog.shown(self._path)), given.text if given else files.text(self._path)
-        self._loaded = probe.compiled(name, text, self._maps, options.name)
+        with closing(console.Bar(console.terminal())) as bar:
+            bar.show(0, 2, "the maps")
+            names = [one.name for one in words(options.simulate)]
+            self._maps = given.maps if given else source.asked(options.maps, names)
+            self._loaded = self._compiled(
+                lambda share: bar.show(1 + share, 2, f"compiling {file_name(self._path.name)}")
+            )
         self.probe = probe.probed(self._loaded, self._scan_us, max(FIRST_US, self._watchdog_us))
         """The program after one scan, without a port: what `permission` asks a person about."""
         if len(self.probe.lines) > 1 and (options.tcp or options.port):
@@ -99,6 +102,11 @@ class Setup:
         self._session = self._made()
         self._session.play = self._play()
         self._records()
+
+    def _compiled(self, tell: Callable[[float], None]) -> source.Loaded:
+        name = file_name(catalog.shown(self._path))
+        text = self._given.text if self._given else files.text(self._path)
+        return probe.compiled(name, text, self._maps, self._options.name, tell)
 
     def _limit(self) -> int:
         if self._options.watchdog is None:
@@ -231,12 +239,16 @@ class Setup:
 
     def _records(self) -> None:
         """Open what is to be recorded. Raises Refused."""
-        where, names = f"{self.label}, {file_name(self._path.name)}", self._session.recorded
-        ways = (self._options.trace, recorder.trace), (self._options.picture, recorder.picture)
+        where, session, waits = f"{self.label}, {file_name(self._path.name)}", self._session, self._options.fast
         try:
-            for path, way in ways:
-                if path is not None:
-                    self._session.recorders.append(way(path, names, where, waits=self._options.fast))
+            if path := self._options.trace:
+                session.recorders.append(recorder.trace(path, session.recorded, where, waits=waits))
+            if path := self._options.picture:
+                program = session.controller
+                drives = {each.path: program.drive(each) for each in program.wiring.drives}
+                timing = Timing(drives, self._options.show or program.wiring.inputs, where)
+                session.recorders.append(recorder.picture(path, timing, session.marks, waits=waits))
+                session.recorded = tuple(dict.fromkeys((*session.recorded, *timing.needs)))
         except OSError as error:
             raise Refused(f"{file_name(error.filename)}: {error.strerror}") from None
 
@@ -267,9 +279,8 @@ class Setup:
                 console.write(str(note))
             if self._options.real and self._options.loopback and not free:
                 self._session.told.put("only reads and stops are sent; if a simulator is there, add --simulated")
-            for one in chain.from_iterable(self._lines):
-                for text in one.told():
-                    self._session.told.put(text)
+            for text in told(list(chain.from_iterable(self._lines))):
+                self._session.told.put(text)
             screen = self._screen()
             return self._report(self._fast(screen) if self._options.fast else self._live(screen))
 

@@ -1,7 +1,7 @@
 """A user's program, compiled together with those blocks of the library that it names."""
 
 import re
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cache, lru_cache
 from pathlib import Path
@@ -19,6 +19,8 @@ from structured_text.language.tree import Program, Unit
 
 _WORD = re.compile(r"[A-Za-z]\w*")
 _UNKNOWN = re.compile(r"expected the name of a type, found ([A-Za-z]\w*_\w+)")
+_ENGINE = EmbeddedEngine(strict=False)
+"""It computes a REAL as PLCs do."""
 _PORTS = {one.prefix for one in PLATFORMS.values()} - {"MB"}
 
 
@@ -30,12 +32,15 @@ class Loaded:
     """By the prefix of their blocks, upper case."""
 
 
-def load(path: str, text: str, maps: Sequence[Map], name: str | None = None) -> Loaded:
-    """Compile a program; `name` says which, where there are several. Raises BuildError."""
+def load(
+    path: str, text: str, maps: Sequence[Map], name: str | None = None, tell: Callable[[float], None] = lambda _: None
+) -> Loaded:
+    """Compile a program; `name` says which, where there are several; `tell` takes the share done. Raises BuildError."""
     try:
         files = needed([parse(text, path)], maps)
     except ParseError as error:
         raise BuildError([Message(each.path, each.line, each.column, each.text) for each in error.problems]) from error
+    _ENGINE.told = tell
     built = _built((*files, Source(path, text)))
     unit = built.compiler.checked.units[-1]
     return Loaded(built, _chosen(unit, name), {each.drive.prefix.upper(): each.drive for each in maps})
@@ -43,8 +48,8 @@ def load(path: str, text: str, maps: Sequence[Map], name: str | None = None) -> 
 
 @lru_cache(8)
 def _built(texts: tuple[Source, ...]) -> EmbeddedLibrary:
-    """The compiled texts, for any number of instances; REAL is computed as by PLCs. Raises BuildError."""
-    return EmbeddedEngine(strict=False).build(texts)
+    """The compiled texts, for any number of instances. Raises BuildError."""
+    return _ENGINE.build(texts)
 
 
 def advice(wrong: str) -> str:

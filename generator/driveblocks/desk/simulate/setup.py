@@ -79,8 +79,9 @@ def view(bus: Bus, maps: Mapping[int, Drive], at_us: int, *, counted: bool) -> V
 
 def _seen(drive: SimulatedDrive, known: Drive, bus: Bus) -> Seen:
     counts = bus.counts[drive.unit]
-    told = f"{counts.heard}/{counts.replied}/{counts.refused}"
-    return Seen(known.prefix, drive.unit, _state(drive, known), drive.asked_hertz, drive.hertz, told)
+    told = f"{counts.heard} requests heard, {counts.replied} answered, {counts.refused} of them refused"
+    state, most = _state(drive, known), float(drive.habits.maximum_hz)
+    return Seen(known.prefix, drive.unit, state, drive.asked_hertz, drive.hertz, told, most_hz=most)
 
 
 def _state(drive: SimulatedDrive, known: Drive) -> str:
@@ -95,7 +96,6 @@ def _state(drive: SimulatedDrive, known: Drive) -> str:
 
 LABEL = "SIMULATED"
 TCP = 5020
-COUNTED = "heard/answered/refused"
 _FORM = re.compile(r"[78][NEO][12]")
 
 
@@ -129,7 +129,7 @@ class Setup:
         self.maps = {one.unit: one.drive for one in wanted}
         self._play = Play(self.maps, scenario.read(words.scenario, self.maps) if words.scenario else ())
         drives = [one.made(ascii_mode=words.ascii) for one in wanted]
-        self._settings = [line for one in wanted for line in one.told()]
+        self._settings = [line for one in wanted for line in (*one.told(), *one.unwritten())]
         rate, its = delivered(self.maps.values())
         self._rate, self._its = words.baud or rate, character(words.form) if words.form else its
         self._bus = Bus(drives, self._rate, self._its.bits, ascii_mode=words.ascii)
@@ -193,7 +193,7 @@ class Setup:
         self._begun_us = self._clock.now_us()
         if terminal.is_terminal and not terminal.is_dumb_terminal:
             title = f"REAL PORT {place}" if self._words.port is not None else place
-            return LiveTable(Heading(LABEL, title, real=self._words.port is not None, remark=COUNTED))
+            return LiveTable(Heading(LABEL, title, real=self._words.port is not None))
         return Lines(LABEL, brief=True)
 
     def _told(self, place: str) -> str:

@@ -62,7 +62,7 @@ class Asker(Protocol):
     def say(self, what: RenderableType) -> None:
         """A text or a table to read."""
 
-    def progress(self, done: int, total: int, text: str) -> None:
+    def progress(self, done: float, total: float, text: str) -> None:
         """How far a step has come."""
 
 

@@ -3,9 +3,11 @@
 import datetime
 import sys
 from collections.abc import Callable, Collection, Iterator, Mapping
+from contextlib import closing
 from dataclasses import dataclass
 from pathlib import Path
 
+from driveblocks import console
 from driveblocks.desk.clock import RealClock
 from driveblocks.desk.port import reason
 from driveblocks.desk.site import adapter, asked, kept, report, steps
@@ -100,7 +102,9 @@ def run(words: Words, read: Callable[[str], str], steps_at: Steps = commission) 
     form = words.form.upper() if words.form else None
     # a server in between has a rate and a format of its own
     fixed = (words.rate or 9600, form or "8N1") if words.tcp else (words.rate, form)
-    others = {each.path.stem: each.drive for each in maps_of(catalog.chosen(())) if each.path.stem != stem}
+    with closing(console.Bar(console.terminal())) as bar:
+        bar.show(0, 1, "the maps")
+        others = {each.path.stem: each.drive for each in maps_of(catalog.chosen(())) if each.path.stem != stem}
     wish = Wish(drive, others, *fixed, words.mode, words.unit, frozenset(words.skip))
     clock = RealClock()
     line = adapter.PortLine(adapter.at(words.port, words.tcp, clock), clock)

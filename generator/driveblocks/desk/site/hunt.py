@@ -39,9 +39,7 @@ def quiet(line: Line, ways: list[Way], asker: Asker, quiet_us: int = QUIET_US) -
     heard, here = b"", kinds[0]
     for at, way in enumerate(kinds, 1):
         while line.now_us() < begun + at * share and not heard:
-            asker.progress(
-                (line.now_us() - begun) // 1_000_000, quiet_us // 1_000_000, f"listening at {way.rate} bit/s"
-            )
+            asker.progress((line.now_us() - begun) / 1e6, quiet_us / 1e6, f"listening at {way.rate} bit/s")
             if line.tune(way):
                 here, heard = way, line.hear(min(1_000_000, begun + at * share - line.now_us()))
             else:

@@ -38,8 +38,14 @@ Body = Callable[[Any], None]
 class Compiler:
     """Compiles a whole build into one namespace; `messages` holds what it could not."""
 
-    def __init__(self, checked: Checked, coverage: bool = False, strict: bool = True) -> None:
-        """Compile everything; with `coverage`, so that it counts what runs; `strict` as for the engine."""
+    def __init__(
+        self,
+        checked: Checked,
+        coverage: bool = False,
+        strict: bool = True,
+        told: Callable[[float], None] = lambda _: None,
+    ) -> None:
+        """Compile everything; with `coverage`, so that it counts what runs; `strict`, and `told`, as for the engine."""
         self.checked = checked
         self.coverage = coverage
         self.strict = strict
@@ -56,7 +62,9 @@ class Compiler:
         self._constants: dict[int, Any] = {}
         for name, body in standard_blocks.bodies(self.run).items():
             self.objects[f"body_{name}"] = body
-        for each in [*checked.callees_first, *checked.programs.values()]:
+        pous = [*checked.callees_first, *checked.programs.values()]
+        for at, each in enumerate(pous):
+            told(at / len(pous))
             self._attempt(each)
 
     # ------------------------------------------------------------ what others ask for

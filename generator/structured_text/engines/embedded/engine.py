@@ -1,6 +1,6 @@
 """The embedded engine: ST compiled to Python in this process, with no tool but Python."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 from structured_text.engines.embedded.compiler import Compiler
 from structured_text.engines.embedded.library import EmbeddedLibrary
@@ -12,6 +12,8 @@ from structured_text.language.tree import Unit
 
 # Turns of loops in one scan. A frame of 256 bytes needs hundreds; a scan of a million takes some 0.1 s here.
 LOOP_LIMIT = 1_000_000
+PARSED, CHECKED = 0.2, 0.3
+"""The shares of a build after which its texts are parsed, and checked."""
 
 
 class EmbeddedEngine:
@@ -30,25 +32,29 @@ class EmbeddedEngine:
         self.coverage = coverage
         self.strict = strict
         self.loop_limit = loop_limit
+        self.told: Callable[[float], None] = lambda _: None
+        """Called during a build with the share that is done."""
 
     def build(self, sources: Sequence[Source]) -> EmbeddedLibrary:
         """Compile the sources as one text in the given order. Raises BuildError."""
-        units = _parsed(sources)
+        units = _parsed(sources, self.told)
         try:
             checked = check(units)
         except SourceError as error:
             raise BuildError([_message(each) for each in error.problems]) from error
-        compiler = Compiler(checked, self.coverage, self.strict)
+        told, rest = self.told, 1 - CHECKED
+        compiler = Compiler(checked, self.coverage, self.strict, lambda share: told(CHECKED + rest * share))
         if compiler.messages:
             raise BuildError(compiler.messages)
         return EmbeddedLibrary(compiler, self.loop_limit)
 
 
-def _parsed(sources: Sequence[Source]) -> list[Unit]:
+def _parsed(sources: Sequence[Source], told: Callable[[float], None]) -> list[Unit]:
     """Parse all sources, so that the errors of all are reported at once. Raises BuildError."""
     units: list[Unit] = []
     problems: list[Problem] = []
-    for source in sources:
+    for at, source in enumerate(sources):
+        told(PARSED * at / len(sources))
         try:
             units.append(parse(source.text, source.path))
         except ParseError as error:

@@ -7,6 +7,9 @@ from structured_text.language.semantics.values import fits, settle
 from structured_text.language.tree import Argument, Binding, Block, Call, Direction, Parameter
 from structured_text.language.types import BOOL, UNKNOWN, Kind, plain, untyped
 
+NAMED = 4
+"""Parameters that a message names, where a call names none of them; more would not be read."""
+
 
 def infer_argument(scope: Scope, argument: Argument) -> None:
     """Check the value of an argument that has no parameter to go to."""
@@ -68,8 +71,10 @@ def _named(
     known = {each.name.upper() for each in parameters}
     if upper not in known:
         infer_argument(scope, argument)
-        hint = nearest(upper, [each.name for each in parameters])
-        scope.report.add(argument.at, "call-arguments", f"expected a parameter of {name}, found {argument.name}{hint}")
+        names = [each.name for each in parameters]
+        hint = nearest(upper, names)
+        right = f"{', '.join(names)} of {name}" if 0 < len(names) <= NAMED and not hint else f"a parameter of {name}"
+        scope.report.add(argument.at, "call-arguments", f"expected {right}, found {argument.name}{hint}")
     elif upper in given:
         infer_argument(scope, argument)
         scope.report.add(argument.at, "call-arguments", f"expected {argument.name} of {name} once, found it twice")
