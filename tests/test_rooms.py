@@ -10,7 +10,8 @@ from driveblocks.maps import catalog
 
 ROOMS = (
     "structured_text", "driveblocks", "console", "modbus", "maps", "meaning", "checked maps", "reference",
-    "show", "render", "diff", "platforms", "docs", "bench", "prove", "output", "desk", "plant", "commands", "cli", "__main__",
+    "show", "render", "diff", "platforms", "docs", "bench", "prove", "output", "desk", "plant", "commands", "cli",
+    "__main__",
 )  # fmt: skip
 """From the bottom up; `driveblocks` is the package's own file, `structured_text` a package of its own."""
 FLOORS = ("structured_text", "visible", "files", "language", "findings", "engines", "cli", "__main__")

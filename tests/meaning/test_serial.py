@@ -83,7 +83,8 @@ def test_drives_that_are_delivered_alike_give_a_line_its_rate_and_characters() -
 
 def test_the_program_of_named_drives_has_their_rate_and_characters() -> None:
     named = [Named(Path("jscc.yaml"), delivered_as("none", 8, 2), unit) for unit in (1, 2)]
-    assert "BitRate := 19200, CharacterBits := 11," in asked._text(asked.Words(line=("jscc@1",)), named, 0)
+    sketch = asked._sketch(asked.Words(line=("jscc@1",)), named, 0)
+    assert "BitRate := 19200, CharacterBits := 11," in asked.program({"Bus": sketch})
 
 
 def test_a_run_speaks_as_the_drives_of_its_program_are_delivered(monkeypatch: pytest.MonkeyPatch) -> None:

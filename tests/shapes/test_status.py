@@ -33,6 +33,8 @@ from structured_text.engines.embedded.engine import EmbeddedEngine
 from structured_text.engines.engine import Value
 
 NAMES = tuple(signs())
+RUNNING = 4
+"""State of a block whose drive runs."""
 
 
 @cache
@@ -110,7 +112,8 @@ def test_a_sign_says_no_direction_at_0() -> None:
 )
 def test_a_drive_that_shows_no_direction_runs(knows: bool, back: bool, state: str) -> None:
     pin: dict[str, Value] = {"CommOk": True, "Fault": False, "StopOverdue": False, "Running": True, "AtSpeed": False}
-    assert _state(pin | {"Reverse": back, "Control.KnowsDirection": knows}) == state
+    pin["Control.State"] = RUNNING
+    assert _state(pin | {"Reverse": back, "Control.KnowsDirection": knows}, drive("sign")) == state
 
 
 def test_standstill_is_below_a_frequency_of_the_map() -> None:

@@ -86,8 +86,8 @@ class Setup:
         self._given = given
         with closing(console.Bar(console.terminal())) as bar:
             bar.show(0, 2, "the maps")
-            names = [one.name for one in words(options.simulate)]
-            self._maps = given.maps if given else source.asked(options.maps, names)
+            simulated = [one.name for one in words(options.simulate)]
+            self._maps = given.maps if given else source.asked(options.maps, simulated)
             self._loaded = self._compiled(
                 lambda share: bar.show(1 + share, 2, f"compiling {file_name(self._path.name)}")
             )
