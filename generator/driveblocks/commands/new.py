@@ -22,8 +22,8 @@ from structured_text.visible import file_name
 def run(name: str, plant: bool, output: Path | None) -> None:
     """Write a first map, or a first plant, to go on from.
 
-    Its comments say what to replace. It is valid as it is, so every mistake that `driveblocks check` reports later is yours. On a terminal a plant is
-    asked for line by line. A file that exists is never touched: the exit status is 2.
+    Its comments say what to replace. It is valid as it is, so every mistake that `driveblocks check` reports later is
+    yours. On a terminal a plant is asked for line by line. A file that exists is never touched: the exit status is 2.
 
     Examples: driveblocks new ACME -o acme_100.yaml, driveblocks new --plant "Pumping station"
     """
