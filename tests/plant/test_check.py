@@ -97,6 +97,17 @@ def test_a_map_that_is_bad_or_clashes_is_said_at_its_drive(tmp_path: Path) -> No
     assert "prefix CHF is taken by" in found.wrong
 
 
+def test_a_map_of_ones_own_is_beside_the_plant(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    own = (EXAMPLES.parents[1] / "tests/maps/example.yaml").read_text("utf-8")
+    (tmp_path / "maps").mkdir()
+    (tmp_path / "maps/mine.yaml").write_text(own, encoding="utf-8")
+    path = tmp_path / "works.yaml"
+    path.write_text(WORKS.replace("drive: jscc", "drive: maps/mine.yaml"), encoding="utf-8")
+    monkeypatch.chdir(EXAMPLES)
+    motor = load.load(path).drives["P1"]
+    assert (motor.path, motor.map.prefix) == (tmp_path / "maps/mine.yaml", "EX100")
+
+
 def test_a_plant_that_may_not_fit_is_good_with_a_warning(tmp_path: Path) -> None:
     text = (
         'plant: One\ncpu: S7-1217C\nlines:\n  A: {port: "1"}\ndrives:\n'
