@@ -41,9 +41,8 @@ def meant(name: str, platform: str, *, ladder: bool = False) -> str:
 
 def whole(name: str, target: str) -> list[str]:
     """Every text in the order in which a compiler takes them."""
-    files = made(name, target)
-    order = sorted(files, key=lambda path: (not path.startswith("shared/D"), *_rank(path)))
-    return [files[path] for path in order if path.endswith(".st")]
+    files = {path: text for path, text in made(name, target).items() if path.endswith(".st")}
+    return [files[path] for path in sorted(files, key=_rank)]
 
 
 def _rank(path: str) -> tuple[int, bool, bool]:
