@@ -22,6 +22,7 @@ TYPES = {
     "MB_LifeTrack": 21, "MB_OwnerTrack": 9, "MB_Track": 75, "MB_Given": 24, "MB_Heard": 83, "MB_Sums": 81,
     "MB_LineTrack": 21, "MB_Slots8": 8 * 254, "MB_Slots2": 2 * 254,
     "MB_Slots32": 32 * 254, "MB_Tracks8": 8 * 75, "MB_Tracks2": 2 * 75, "MB_Tracks32": 32 * 75, "VFD_Settings": 42,
+    "VFD_Counted": 8, "VFD_Member": 17, "VFD_Members": 272,
     "VFD_Diagnosis": 145, "VFD_Asked": 13, "VFD_Seen": 35,
 }  # fmt: skip
 """ABI 1, typed by hand: 256 bytes; 513 characters; 125 words; 513 words; six fields of two bytes;
@@ -89,6 +90,8 @@ WORST: dict[str, dict[str, Value]] = {
     "MB_Foreign": {"Acknowledge": True},
     "MB_Frame": {"Ascii": True, "FunctionCode": 16, "Quantity": 4, "CharUs": 573},
     "MB_Device": {"Address": 1},
+    "VFD_Group": {"Count": 16},
+    "VFD_Duty": {"Run": True, "Count": 16, "Duty": 16, **{f"Members[{number}].Ready": True for number in range(16)}},
     "MB_BuildWriteMultiple": {**WRITE, "Quantity": 123},
     "MB_ParseReply": OPEN,
     **{f"{prefix}_Reply": OPEN for prefix in drives()},
@@ -155,7 +158,7 @@ def test_loops_at_their_worst(block: str) -> None:
 
 def has(block: str, pin: str) -> bool:
     """Whether a block has a pin."""
-    return re.search(rf"^  {pin.partition('.')[0]} :", TEXTS[block], re.MULTILINE) is not None
+    return re.search(rf"^  {re.split(r'[.[]', pin)[0]} :", TEXTS[block], re.MULTILINE) is not None
 
 
 @pytest.mark.parametrize("block", [name for name, (_, _, loops) in ROWS.items() if loops == "none"])

@@ -153,6 +153,24 @@ def test_what_commission_found_of_no_drive_or_of_another_is_a_warning(tmp_path: 
     ]
 
 
+def test_a_button_that_can_reset_nothing_over_the_line_is_a_warning(tmp_path: Path) -> None:
+    path = tmp_path / "works.yaml"
+    buttons = "  StartPumps: {start: Pumps}\n  ResetP1: {reset: P1}\n  ResetPumps: {reset: Pumps}\n"
+    path.write_text(WORKS.replace("  StartPumps: {start: Pumps}\n", buttons), encoding="utf-8")
+    (warning,) = [each for each in check.judged(path).warnings if each.line > 18]
+    assert (warning.line, warning.column) == (19, 20)
+    assert warning.wrong == "ResetP1 resets no fault of P1: JSCC takes no reset over the line"
+
+
+def test_the_hard_stop_of_a_plant_without_any_has_a_name_of_its_own(tmp_path: Path) -> None:
+    text = WORKS[: WORKS.index("hard_stops:")] + WORKS[WORKS.index("meters:") :]
+    path = tmp_path / "works.yaml"
+    assert not problems(path, text)
+    assert load.load(path).hard_stops["HardStop"].drives == ("P1", "P2", "P3", "F1", "F2")
+    (found,) = problems(path, text.replace("  PumpsRun:", "  Hardstop:"))
+    assert (found.line, found.wrong) == (21, "`Hardstop` is a variable of the program itself")
+
+
 def test_how_a_line_is_spoken_on_is_as_all_its_drives_are_delivered(tmp_path: Path) -> None:
     path = tmp_path / "works.yaml"
     path.write_text(WORKS, encoding="utf-8")

@@ -70,6 +70,15 @@ def test_a_sheet_for_each_drive_with_its_own_address() -> None:
     assert [each[2:4] for each in every] == ["P1", "P2", "P3", "P4", "P5", "P6"]
 
 
+def test_the_sheet_of_a_drive_on_an_ascii_line_sets_it_to_ascii(tmp_path: Path) -> None:
+    path = tmp_path / "works.yaml"
+    works = (HERE / "works.yaml").read_text("utf-8")
+    path.write_text(works.replace('form: "8E1"}', 'form: "8O1", mode: ascii}'), encoding="utf-8")
+    said = command("sheet", f"{path}:P1").stdout
+    assert "**8O1**" in said
+    assert "| **1 = " in next(each for each in said.splitlines() if "FA.03" in each)
+
+
 @pytest.mark.parametrize(
     ("words", "says"),
     [

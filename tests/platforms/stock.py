@@ -53,9 +53,12 @@ EXTRAS = {
     "Line32": {"MB_Line32", "MB_ByteLine32", "MB_Slots32", "MB_Tracks32"},
     "Parameters": {"VFD_ReadParameter", "VFD_WriteParameter", "VFD_Store"},
     "Meter": {"MB_Device", "MB_Float"},
+    "Plant": {
+        "VFD_Counted", "VFD_Member", "VFD_Members", "VFD_Hours", "VFD_Scale", "VFD_Place", "VFD_Group", "VFD_Duty",
+    },
     "Frames": {"MB_Chars", "MB_Words", "MB_Registers", "MB_Request"},
     "Chinese": set[str](),
-}
+}  # fmt: skip
 """What a user of a small PLC leaves out, in the order of the files; to Frames belong blocks of `modbus`, too."""
 KEPT = {"MB_HexDigit", "MB_HexValue", "MB_ResultTextEn"}
 """Of the folder `modbus`: the line uses two, and texts in English are for everybody."""

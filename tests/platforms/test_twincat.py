@@ -143,7 +143,7 @@ def test_a_library_lists_every_file_of_its_folder_once_and_no_two_own_a_name() -
 
 def test_a_project_to_begin_with_has_its_own_files_and_links_what_a_first_motor_needs() -> None:
     more = ["yours/TC_Fast.TcPOU", "yours/TC_Com.TcGVL", "yours/TC_FastTask.TcTTO"]
-    extras = re.compile("/(?:Line2|Line32|Frames|Parameters|Meter|Chinese)/")
+    extras = re.compile("/(?:Line2|Line32|Frames|Parameters|Meter|Plant|Chinese)/")
     for drive in made().drives.values():
         path = f"yours/{drive.prefix}_Motor.plcproj"
         own = [f"yours/{drive.prefix}_Motor.TcPOU", f"yours/{drive.prefix}_Task.TcTTO", *more]

@@ -1,14 +1,6 @@
 """One module per command of `driveblocks`; each holds the click command and the tables that it prints."""
 
 import json
-import json
-import json
-import json
-import json
-import json
-import json
-import json
-import json
 import sys
 from collections.abc import Callable
 from pathlib import Path
@@ -32,38 +24,6 @@ def refuse(message: str) -> NoReturn:
     """Say what is wrong with the input, and end with status 2."""
     click.echo(message, err=True)
     sys.exit(2)
-
-
-def echo_json(value: object) -> None:
-    click.echo(json.dumps(value, ensure_ascii=False, indent=2))
-
-
-def echo_json(value: object) -> None:
-    click.echo(json.dumps(value, ensure_ascii=False, indent=2))
-
-
-def echo_json(value: object) -> None:
-    click.echo(json.dumps(value, ensure_ascii=False, indent=2))
-
-
-def echo_json(value: object) -> None:
-    click.echo(json.dumps(value, ensure_ascii=False, indent=2))
-
-
-def echo_json(value: object) -> None:
-    click.echo(json.dumps(value, ensure_ascii=False, indent=2))
-
-
-def echo_json(value: object) -> None:
-    click.echo(json.dumps(value, ensure_ascii=False, indent=2))
-
-
-def echo_json(value: object) -> None:
-    click.echo(json.dumps(value, ensure_ascii=False, indent=2))
-
-
-def echo_json(value: object) -> None:
-    click.echo(json.dumps(value, ensure_ascii=False, indent=2))
 
 
 def echo_json(value: object) -> None:

@@ -1,16 +1,25 @@
 """`driveblocks run`: a soft PLC for a program in ST, on simulated drives or a real line."""
 
 import sys
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
-from driveblocks.commands import FILE
+from driveblocks.commands import FILE, refuse
+
+if TYPE_CHECKING:
+    from driveblocks.desk.run.setup import Given
+
+USUAL_SCAN = "10ms"
 
 
 @click.command()
 @click.argument(
-    "program", type=FILE, required=False, metavar="[PROGRAM.st]", help="The program; the library is added to it."
+    "program",
+    type=FILE,
+    required=False,
+    metavar="[PROGRAM.st|PLANT.yaml]",
+    help="The program; the library is added to it.",
 )
 @click.option("--program", "name", metavar="NAME", help="Which PROGRAM, where the file has several.")
 @click.option("--map", "maps", multiple=True, metavar="MAP", help="A map of your own that the program uses.")
@@ -24,7 +33,7 @@ from driveblocks.commands import FILE
 @click.option("--simulated", is_flag=True, help="There are only simulated drives behind --tcp, on this computer.")
 @click.option("--port", metavar="DEVICE", help="A serial port, such as COM3 or /dev/ttyUSB0: a REAL PORT.")
 @click.option("--format", "form", metavar="8E1", help="Data bits, parity, stop bits of --port; else by CharacterBits.")
-@click.option("--scan", metavar="TIME", default="10ms", help="Time between two scans.")
+@click.option("--scan", metavar="TIME", help="Time between two scans, 10ms unless given; of a plant as it says.")
 @click.option(
     "--watchdog",
     metavar="TIME",
@@ -55,14 +64,33 @@ def run(show: tuple[str, ...], **words: Any) -> None:
     an unplugged cable: wire a hard stop. The exit status is 0 if all drives came to standstill, 1 if one could not
     be confirmed or the program failed, and 2 for bad input or a file that cannot be written.
 
-    Example: driveblocks run my_line.st --simulate jscc@1 --for 60s
+    Of a plant, its program runs at simulated drives of its addresses; its hard stops close with their contacts.
+
+    Examples: driveblocks run my_line.st --simulate jscc@1 --for 60s, driveblocks run plant.yaml
     """
     from driveblocks.desk.keyboard import Keyboard
     from driveblocks.desk.run import permission
     from driveblocks.desk.run.options import Options
     from driveblocks.desk.run.setup import Setup
 
+    given, scan = _given(words)
+    words["scan"] = words["scan"] or scan
     options = Options(show=tuple(",".join(show).replace(",", " ").split()), **words)
     keyboard = Keyboard(0)
-    made = Setup(options, keyboard)
+    made = Setup(options, keyboard, given)
     sys.exit(made.run(permission.ask(made.probe, keyboard) if options.allow_run else frozenset()))
+
+
+def _given(words: dict[str, Any]) -> "tuple[Given | None, str]":
+    """What a plant gives, and its scan. Ends with status 2 for a word that is not for a plant."""
+    from driveblocks.plant.word import is_plant
+
+    if words["program"] is None or not is_plant(words["program"]):
+        return None, USUAL_SCAN
+    from driveblocks.plant import check, play
+
+    if named := [each for each in ("name", "maps", "simulate") if words[each]]:
+        option = {"name": "--program", "maps": "--map", "simulate": "--simulate"}[named[0]]
+        refuse(f"{option} is for a program; a plant says itself what there is")
+    plant = check.good(words["program"])
+    return play.given(plant), f"{plant.scan_ms}ms"

@@ -88,7 +88,7 @@ def _of_drive(plant: "Plant", motor: "Motor") -> str:
     way = plant.lines[motor.line].way
     silence = Decimal(motor.watchdog_ms) / 1000 if motor.watchdog_ms else None
     try:
-        line = keypad.wanted(motor.map, motor.unit, way.rate, way.form, silence)
+        line = keypad.wanted(motor.map, motor.unit, way.rate, way.form, silence, way.mode)
     except ValueError as error:
         refuse(f"{motor.name}: {error}")
     page = keypad.page(motor.map, Found(motor, way).word, line)

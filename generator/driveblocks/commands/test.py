@@ -5,6 +5,7 @@ import sys
 from collections.abc import Iterator
 from contextlib import closing
 from pathlib import Path
+from textwrap import indent
 from typing import TYPE_CHECKING
 
 import click
@@ -68,8 +69,18 @@ def run(  # noqa: PLR0913, PLR0917 - one parameter per option of the command lin
     --coverage counts lines, and outcomes of decisions (IF, CASE, loops). What no input can reach is explained, and not
     in the percentage. Too little is a failure only with --require-coverage.
 
-    Example: driveblocks test my_drive.yaml --engine all --require-coverage 85
+    Of a plant, the very program that `driveblocks project` writes runs at simulated drives of its addresses, in virtual
+    time: starts, stops, trips, cut cables, lost supplies, a restart of the PLC, a panel; each scene is a case.
+
+    Examples: driveblocks test my_drive.yaml --engine all --require-coverage 85,
+    driveblocks test plant.yaml --junit plant.xml
     """
+    from driveblocks.plant.word import is_plant
+
+    if any(is_plant(Path(each)) for each in maps):
+        if len(maps) > 1 or engine != "embedded" or picture or keep or coverage or require_coverage is not None:
+            refuse("a plant is tested alone, on the embedded engine; of the options, --junit and --jobs are for it")
+        sys.exit(_plant(Path(maps[0]), junit, jobs or min(4, os.cpu_count() or 1)))
     from driveblocks.bench import junit as xml
     from driveblocks.bench import runner
     from driveblocks.bench.coverage import Coverage, counting, result
@@ -100,6 +111,29 @@ def run(  # noqa: PLR0913, PLR0917 - one parameter per option of the command lin
     _cover(measured)
     _say(done, len(read), junit)
     sys.exit(0 if done.passed else 1)
+
+
+def _plant(path: Path, junit: Path | None, jobs: int) -> int:
+    """Test a plant; the exit status."""
+    from driveblocks.bench import junit as xml
+    from driveblocks.plant import program, testing
+    from driveblocks.plant.check import judged
+
+    found = judged(path)
+    with closing(console.Bar(console.terminal("stderr"), ticks=False)) as bar:  # it forks
+        bar.show(0, 1, "compiling the program")
+        trial = testing.Trial(found.plant, program.text(found.plant), found.figures)
+        done = testing.run(trial, jobs, bar.show)
+    if junit is not None:
+        write(junit, xml.text(done))
+    (result,) = done.results
+    for each in result.bad[:SHOWN]:
+        said = f"expected: {each.expected}\nactual: {each.actual}" if each.expected else each.message
+        click.echo(f"{each.words}: {each.status}\n{indent(said, '  ')}")
+    verdict = "all passed" if done.passed else f"{len(result.bad)} failed"
+    written = f"; {junit}" if junit else ""
+    click.echo(f"{len(result.outcomes)} scenes of {found.plant.plant}: {verdict} in {done.seconds:.1f} s{written}")
+    return 0 if done.passed else 1
 
 
 def _keep(folder: Path, read: "list[Source]", both: "list[Language]") -> None:
@@ -226,8 +260,6 @@ def _cell(name: str, results: "list[Result]") -> str:
 
 def _say(run: "Run", drives: int, junit: Path | None) -> None:
     """The failures, each first scene that failed with its pins and frames, then the sum of it all."""
-    from textwrap import indent
-
     from driveblocks.bench import record
 
     shown = 0

@@ -13,6 +13,7 @@ from driveblocks.meaning.plug import plug
 from driveblocks.meaning.serial import FORMS, character, serial
 from driveblocks.meaning.setting import GROUPS, Setting, in_order, setting
 from driveblocks.meaning.watchdog import watchdog
+from driveblocks.modbus.frame import Mode
 from driveblocks.render.environment import render
 
 BLANK = "______"
@@ -27,12 +28,14 @@ TITLES = dict(zip(GROUPS, ("Access level", "Who commands", "Address, rate, forma
 
 @dataclass(frozen=True)
 class Wanted:
-    """What a line is to be: unit address, bit rate, characters, and how long it may be silent, in s."""
+    """What a line is to be: unit address, bit rate, characters, how long it may be silent, in s, and framing."""
 
     unit: int
     rate: int
     form: str
     silence_s: Decimal | None = None
+    mode: Mode | None = None
+    """None: RTU, where the drive has it."""
 
 
 @dataclass(frozen=True)
@@ -44,12 +47,14 @@ class Row:
     wire: str
 
 
-def wanted(drive: Drive, unit: int, rate: int | None, form: str | None, silence_s: Decimal | None) -> Wanted:
+def wanted(  # noqa: PLR0913, PLR0917 - all that is set of a line
+    drive: Drive, unit: int, rate: int | None, form: str | None, silence_s: Decimal | None, mode: Mode | None = None
+) -> Wanted:
     """A line, as delivered where nothing is said. Raises ValueError with what is allowed."""
     line = serial(drive)
-    forms = chosen.forms(drive) or FORMS
+    forms = chosen.forms(drive, mode) or FORMS
     usual = line.character.form
-    found = Wanted(unit, rate or line.rate, (form or (usual if usual in forms else forms[0])).upper(), silence_s)
+    found = Wanted(unit, rate or line.rate, (form or (usual if usual in forms else forms[0])).upper(), silence_s, mode)
     if not line.lowest <= unit <= line.highest:
         raise ValueError(f"the unit addresses of this drive are {line.lowest} to {line.highest}, not {unit}")
     rates = chosen.rates(drive)
@@ -77,7 +82,7 @@ def no_time(drive: Drive, silence_s: Decimal) -> str:
 
 def rows(drive: Drive, line: Wanted | None = None) -> dict[str, list[Row]]:
     """Title of a group -> its settings in order, filled in for a line; without one, as on the page of every drive."""
-    numbers = chosen.chosen(drive, line.unit, line.rate, character(line.form)) if line else {}
+    numbers = chosen.chosen(drive, line.unit, line.rate, character(line.form), line.mode) if line else {}
     own = watchdog(drive)
     if line and line.silence_s is not None and own and own.time and (by := setting(drive, own.time.setting)):
         number = by.keypad.number(line.silence_s)

@@ -5,15 +5,17 @@ from collections.abc import Iterator
 from driveblocks.maps.model import BaudChoice, Drive, FormatChoice, ModeChoice, StopBitsChoice
 from driveblocks.meaning.serial import PARITIES, Character, serial
 from driveblocks.meaning.setting import setting
+from driveblocks.modbus.frame import Mode
 
 Choice = ModeChoice | BaudChoice | FormatChoice | StopBitsChoice
 
 
-def chosen(drive: Drive, unit: int, rate: int, character: Character) -> dict[str, int]:
-    """Setting -> number; a setting that cannot be so is left out."""
+def chosen(drive: Drive, unit: int, rate: int, character: Character, mode: Mode | None = None) -> dict[str, int]:
+    """Setting -> number; a setting that cannot be so is left out. Without a mode RTU, where the drive has it."""
+    mode = mode or ("ascii" if serial(drive).ascii else "rtu")
     found = {drive.serial.unit.setting: unit} if drive.serial.unit.setting else {}
     for id_ in dict.fromkeys(each.setting for each in _choices(drive) if each.setting):
-        some = [(each, list(_codes(drive, each, rate, character))) for each in _choices(drive) if each.setting == id_]
+        some = [(each, list(_codes(each, rate, character, mode))) for each in _choices(drive) if each.setting == id_]
         number = _number(drive, id_, some)
         if number is not None:
             found[id_] = number
@@ -25,11 +27,11 @@ def rates(drive: Drive) -> tuple[int, ...]:
     return tuple(sorted(serial(drive).rates))
 
 
-def forms(drive: Drive) -> tuple[str, ...]:
-    """The characters that a drive has in the framing that is used; none where its map lists none."""
+def forms(drive: Drive, mode: Mode | None = None) -> tuple[str, ...]:
+    """The characters that a drive has in a framing, else in the one that is used; none where its map lists none."""
     found = dict.fromkeys(each for each in serial(drive).characters)
     asked = {each.setting for each in (drive.serial.format, drive.serial.stop_bits) if each and each.setting}
-    return tuple(each.form for each in found if asked <= chosen(drive, 1, serial(drive).rate, each).keys())
+    return tuple(each.form for each in found if asked <= chosen(drive, 1, serial(drive).rate, each, mode).keys())
 
 
 def _choices(drive: Drive) -> list[Choice]:
@@ -37,9 +39,8 @@ def _choices(drive: Drive) -> list[Choice]:
     return [each for each in (line.mode, line.baud, line.format, line.stop_bits) if each is not None]
 
 
-def _codes(drive: Drive, choice: Choice, rate: int, character: Character) -> Iterator[int]:
+def _codes(choice: Choice, rate: int, character: Character, mode: Mode) -> Iterator[int]:
     """The codes of a setting that choose what is wanted."""
-    mode = "ascii" if serial(drive).ascii else "rtu"
     for each in choice.codes:
         wanted = (
             ("mode", mode),

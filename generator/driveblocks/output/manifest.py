@@ -147,12 +147,12 @@ def compare(folder: Path, old: Manifest, texts: Mapping[str, str]) -> dict[str, 
             here = digest(folder / name)
             if here is not None and name not in listed and _same(folder, name, given_up.get(name.casefold())):
                 here = None
-            if state := _state(here, listed.get(name), wanted):
+            if state := judged(here, listed.get(name), wanted):
                 states[name] = state
     return states
 
 
-def _state(here: str | None, listed: str | None, wanted: str | None) -> State | None:
+def judged(here: str | None, listed: str | None, wanted: str | None) -> State | None:
     """What the digests of a file there, in the manifest and in the new output say together."""
     if here == wanted or (wanted is None and here in {None, "folder"}):
         return None

@@ -6,12 +6,12 @@ from importlib import import_module
 from driveblocks.maps.collection import Source
 from driveblocks.plant import program
 from driveblocks.plant.model import Plant
-from driveblocks.platforms import CANONICAL, EXPORTS, PLATFORMS
+from driveblocks.platforms import CANONICAL, EXPORTS
 from driveblocks.platforms.openplc import writer as plain
 from driveblocks.platforms.part import YOURS, Own, Part, Shelf, shelf
 from driveblocks.platforms.writers import writer
 from driveblocks.render import library
-from driveblocks.render.library import CHINESE, FRAMES, LINE_SIZES, METER, PARAMETERS, PLANT
+from driveblocks.render.library import CHINESE, FRAMES, LINE_SIZES, METER, PARAMETERS
 from driveblocks.render.text import Language, told
 from structured_text.language.parser import parse
 
@@ -35,6 +35,11 @@ def files(plant: Plant, target: str, languages: Sequence[Language]) -> dict[str,
     made = {path: text for path, text in writer(target)(stock).items() if _is_library(path)}
     written: dict[str, str] = import_module(f"driveblocks.platforms.{target}.writer").own(stock, own)
     return made | written
+
+
+def codes(plant: Plant) -> list[str]:
+    """The languages of the texts of its blocks: English, and the second one where blocks have it."""
+    return ["en", *(["zh"] if plant.language == "zh" else [])]
 
 
 def _is_library(path: str) -> bool:
@@ -73,8 +78,4 @@ def _own(plant: Plant, target: str) -> Own:
 
 
 def _part(platform: str, text: str) -> Part:
-    assert platform in PLATFORMS  # noqa: S101
     return Part(platform, parse(text, f"{platform}/Plant.st"))
-
-
-__all__ = ["PLANT", "TARGETS", "TEXT", "files", "stocked"]

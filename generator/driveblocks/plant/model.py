@@ -267,7 +267,8 @@ class Plant(Entry):
 
     def members(self, name: str) -> list[Motor]:
         """The drives of a group, or the drive of that name."""
-        return [self.drives[each] for each in (self.groups[name].drives if name in self.groups else (name,))]
+        names = self.groups[name].drives if name in self.groups else (name,)
+        return [self.drives[each] for each in names if each in self.drives]
 
     def group_of(self, drive: str) -> Group | None:
         """The group of a drive; it is in one at most."""

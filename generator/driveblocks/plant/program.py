@@ -4,12 +4,11 @@ It is made of calls, assignments and rungs alone, so that it can be drawn as a l
 underscore in its name; what is named here has one behind a name of theirs: P1, P1_Run.
 """
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 from decimal import Decimal
 
 from driveblocks.maps.model import Drive
-from driveblocks.maps.problem import Refused
 from driveblocks.maps.trust import second_hand
 from driveblocks.meaning.reference import reference
 from driveblocks.meaning.serial import Character, character
@@ -20,12 +19,11 @@ from driveblocks.render.environment import render
 from driveblocks.render.library import LINE_SIZES
 from structured_text.language.writing import real, word
 
-MOST_MEMBERS = 16
-"""Drives of a group: those that VFD_Members holds."""
-LOWEST_INT, HIGHEST_INT = -32768, 32767
 CHANGES = {None: 0, "never": 0, "starts": 1, "hours": 2}
 """Who is first: the numbers of VFD_Duty."""
 USUAL_DELAY_MS = 1000
+FIRST_MODULE = 269
+"""Hardware identifier of the first communication module of an S7-1200, as a device configuration gives it."""
 PINS = {"running": "Running", "fault": "Fault", "ready": "Ready", "stopped": "Stopped"}
 OWN_PINS = {**PINS, "stopped": "StopConfirmed"}
 """What a lamp shows: pins of a group, and of a drive block."""
@@ -47,6 +45,21 @@ class Bus:
     ascii: bool
     elapsed: str
     """The variable that holds the time since the last call."""
+
+    @property
+    def serial(self) -> int:
+        """The number of its port, where ports are counted."""
+        return int(self.port) if self.port.isdecimal() else self.number
+
+    @property
+    def hardware(self) -> int:
+        """The identifier of its module in an S7: the first ones are the PLC's own."""
+        return self.serial if self.serial >= FIRST_MODULE else FIRST_MODULE + self.number - 1
+
+    @property
+    def device(self) -> str:
+        """The name of its port on Linux."""
+        return self.port if self.port.startswith("/") else f"/dev/ttyUSB{self.number - 1}"
 
 
 @dataclass(frozen=True)
@@ -124,13 +137,12 @@ class Contact:
 
 
 def text(plant: Plant) -> str:
-    """The program with the bytes of its lines, as the embedded engine runs it. Raises Refused."""
+    """The program with the bytes of its lines, as the embedded engine runs it."""
     return source(plant, CANONICAL)
 
 
 def source(plant: Plant, platform: str, *, own: bool = True, name: str = "") -> str:
-    """The program at the ports of a platform; `own`: with a place for the user's declarations. Raises Refused."""
-    _refuse(plant)
+    """The program at the ports of a platform; `own`: with a place for the user's declarations."""
     units = list(_units(plant, platform))
     return render(
         "plant/Program.st.j2",
@@ -296,56 +308,3 @@ def _shown(plant: Plant, lamp: Lamp) -> str:
         return f"{lamp.of}.{PINS[lamp.shows]}"
     fault = f" OR NOT {lamp.of}.CommOk" if lamp.shows == "fault" else ""
     return f"{lamp.of}.{OWN_PINS[lamp.shows]}{fault}"
-
-
-# ------------------------------------------------------------ what cannot be
-
-
-def _refuse(plant: Plant) -> None:
-    """Raise Refused for what no program can be made of."""
-    wrong = list(_wrong(plant))
-    if wrong:
-        raise Refused("\n".join(wrong))
-
-
-def _wrong(plant: Plant) -> Iterator[str]:
-    for group in plant.groups.values():
-        if len(group.drives) > MOST_MEMBERS:
-            yield f"group {group.name} has {len(group.drives)} drives; {MOST_MEMBERS} are possible: make it two groups"
-    for each in plant.inputs.values():
-        if not all(LOWEST_INT <= one <= HIGHEST_INT for one in each.raw):
-            yield f"input {each.name}: `raw` is beyond an INT; write {LOWEST_INT} to {HIGHEST_INT}"
-    for button in plant.buttons.values():
-        if button.does == "start" and button.of not in commanded(plant):
-            yield f"button {button.name} starts {button.of}, which is started by its group or by its own terminals"
-    yield from _twice(plant.program, *named(plant))
-
-
-def named(plant: Plant) -> tuple[str, ...]:
-    """What people have named: each is a variable."""
-    return tuple(
-        each.name
-        for some in (
-            plant.lines,
-            plant.drives,
-            plant.groups,
-            plant.buttons,
-            plant.lamps,
-            plant.hard_stops,
-            plant.meters,
-        )
-        for each in some.values()
-    ) + tuple(plant.inputs)
-
-
-def _twice(*names: str) -> Iterator[str]:
-    seen: set[str] = set()
-    for each in names:
-        if each.upper() in seen:
-            yield f"{each} is the name of two things, or of one and the program; a PLC takes each name once"
-        seen.add(each.upper())
-
-
-def rung(contacts: Iterable[str]) -> str:
-    """Contacts in parallel."""
-    return " OR ".join(contacts)

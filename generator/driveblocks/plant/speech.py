@@ -25,8 +25,7 @@ class Shared:
 
 def forms(drive: Drive, mode: Mode) -> tuple[str, ...]:
     """The characters that a drive has in a framing; where its map lists none, all: RTU has 8 data bits."""
-    has = chosen.forms(drive) if mode == "rtu" else tuple(each.form for each in serial(drive).characters)
-    return tuple(each for each in has or FORMS if mode == "ascii" or each[0] == "8")
+    return tuple(each for each in chosen.forms(drive, mode) or FORMS if mode == "ascii" or each[0] == "8")
 
 
 def shared(drives: Collection[Drive], mode: Mode) -> Shared:

@@ -70,6 +70,8 @@ def _heading(folder: str, known: dict[str, context.Identity], files: list[File])
         return "The line: one block per RS-485 port"
     if folder == "device":
         return "A meter or a sensor on the line"
+    if folder == "plant":
+        return "Several drives: groups, analog inputs, hours and starts"
     if folder == "vfd":
         return "What the drive blocks of all families share"
     prefix = next(file.name.partition("_")[0] for file in files if file.folder == folder)

@@ -77,7 +77,7 @@ def importing(stock: Shelf) -> list[str]:
     rows = [(part.folder, part.name, part.text) for part in stock.parts]
     port = [(part.folder, part.name, part.text) for one in stock.port("siemens") for part in one.parts]
     made = volumes(stock, rows) | volumes(replace(stock, drives={}), port, "SI_Port")
-    typed = {"shared/DriveBlocks", "shared/DriveBlocks_Frames"}
+    typed = {"shared/DriveBlocks", "shared/DriveBlocks_Plant", "shared/DriveBlocks_Frames"}
     names = [f"{name}.{end}" for name in made for end in (("udt", "scl") if name in typed else ("scl",))]
     order = sorted(names, key=lambda name: name.startswith("families"))
     return [*order, *(f"yours/{each.name}.scl" for each in programs(stock))]
@@ -103,7 +103,7 @@ def arrays_are_told(found: Read) -> None:
 def _array(found: Read, part: Part) -> str:
     bare = _type(found, NamedSpec(0, part.name))
     plain = re.sub(r"\b(?:BYTE|WORD)\b", lambda name: name[0].capitalize(), bare)
-    plain = re.sub(r"MB_\w+", lambda name: f'"{found.parts[name[0]].name}"', plain)
+    plain = re.sub(r"(?:MB|VFD)_\w+", lambda name: f'"{found.parts[name[0]].name}"', plain)
     return f"{part.name} is {plain.replace('ARRAY', 'Array').replace('OF', 'of')} wherever it is used"
 
 

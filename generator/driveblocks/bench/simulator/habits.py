@@ -20,6 +20,8 @@ class Habits:
     """Of its motor: at 50 Hz it turns at 3000 r/min divided by them."""
     ramp: int = 10
     """Up, and down to a stop."""
+    stop_ramp: int | None = None
+    """Down to a stop, where it is another one."""
     quick_ramp: int = 50
     """Down after a quick stop."""
     coast_ramp: int = 5

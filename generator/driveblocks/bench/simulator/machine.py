@@ -187,7 +187,8 @@ class Machine:
     def step(self, ms: int) -> None:
         self.now += ms
         habits = self.habits
-        self.motor.step(ms, self._goal(), habits.quick_ramp if self._quick else habits.ramp, habits.coast_ramp)
+        ramp = habits.stop_ramp or habits.ramp if self._stopping else habits.ramp
+        self.motor.step(ms, self._goal(), habits.quick_ramp if self._quick else ramp, habits.coast_ramp)
         if self._stopping and self.motor.output == 0:
             self._let_go()
         self._settle()

@@ -2,9 +2,9 @@
 
 import difflib
 import sys
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, closing, suppress
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from itertools import chain
 from pathlib import Path
 
@@ -30,9 +30,12 @@ from driveblocks.desk.run.watchdog import FIRST_US, LIMIT_US, Watchdog
 from driveblocks.desk.screen import Desk, Heading, Lines, LiveTable, Screen
 from driveblocks.desk.words import LOOPBACK, opening, time
 from driveblocks.maps import catalog
+from driveblocks.maps.collection import Source
 from driveblocks.maps.problem import Refused
 from driveblocks.meaning.serial import USUAL_BITS, USUAL_RATE, delivered
 from structured_text import files
+from structured_text.engines.embedded import EmbeddedInstance
+from structured_text.engines.engine import Value
 from structured_text.visible import file_name
 
 LONGEST_SCAN_US = 60_000_000
@@ -52,8 +55,22 @@ RECORDED = ("Running", "Fault", "StopConfirmed", "OutputFrequencyHz")
 """Outputs of each drive block that are recorded where nobody names others."""
 
 
+@dataclass(frozen=True)
+class Given:
+    """A program that is no file of its own, and what it meets."""
+
+    text: str
+    maps: Sequence[Source]
+    drives: Mapping[str, Named]
+    """To be simulated, by their blocks."""
+    inputs: Mapping[str, Value]
+    """What they are at first."""
+    around: Callable[[EmbeddedInstance], None]
+    """What is done to them before each scan."""
+
+
 class Setup:
-    def __init__(self, options: Options, keyboard: Keyboard) -> None:
+    def __init__(self, options: Options, keyboard: Keyboard, given: Given | None = None) -> None:
         """Prepare everything but the port; `keyboard` is what a person types while it runs. Raises Refused."""
         if mistakes := list(mistakes_of(options)):
             raise Refused("\n".join(mistakes))
@@ -66,9 +83,11 @@ class Setup:
         self._departure = Departure(LEAVE_S * self._pause)
         self._stack = ExitStack()
         self._path = demo.path() if options.demo else options.program or Path()
+        self._given = given
         with closing(console.Bar(console.terminal())) as bar:
             bar.show(0, 2, "the maps")
-            self._maps = source.asked(options.maps, [one.name for one in words(options.simulate)])
+            named = [one.name for one in words(options.simulate)]
+            self._maps = given.maps if given else source.asked(options.maps, named)
             self._loaded = self._compiled(
                 lambda share: bar.show(1 + share, 2, f"compiling {file_name(self._path.name)}")
             )
@@ -85,8 +104,8 @@ class Setup:
         self._records()
 
     def _compiled(self, tell: Callable[[float], None]) -> source.Loaded:
-        name = file_name(catalog.shown(self._path))
-        return probe.compiled(name, files.text(self._path), self._maps, self._options.name, tell)
+        text = self._given.text if self._given else files.text(self._path)
+        return probe.compiled(file_name(catalog.shown(self._path)), text, self._maps, self._options.name, tell)
 
     def _limit(self) -> int:
         if self._options.watchdog is None:
@@ -128,6 +147,8 @@ class Setup:
     def _simulates(self) -> list[list[Named]]:
         """The drives of each line: those that are named, else those of the program. Raises Refused."""
         lines = self.probe.lines
+        if self._given:
+            return [[self._given.drives[block.path] for block in each.wiring.drives] for each in lines]
         if not self._options.simulate:
             return [list(of_program(self.probe, self._maps, each.wiring.drives)) for each in lines]
         if len(lines) > 1:
@@ -189,6 +210,10 @@ class Setup:
         controller = probe.controller(self._loaded, self._scan_us)
         session = Session(controller, self._clock, Ending(), self._scan_us)
         session.recorded = self._recorded(controller)
+        if given := self._given:
+            for name, value in given.inputs.items():
+                controller.instance[name] = value
+            session.steps.append(lambda _: given.around(controller.instance))
         if path := self._options.script:
             session.script = script.read(file_name(path), files.text(path), controller.instance)
         session.shown = self._options.show

@@ -111,8 +111,20 @@ def find(program: Program, prefixes: set[str]) -> Wiring:
     served = {each.upper() for one in wired for each in (one.rx_count, *filter(None, one.pins.values()))}
     inputs = [*_inputs(program), *(path for each in (*blocks, *lines.values()) for path in _feeding(each))]
     inputs += [path for each in contacts for path in _feeding(each, {"RESET"})]
-    free = {path.upper(): path for path in inputs if path.upper() not in served | {*map(str.upper, restart)} | written}
+    taken, inside = served | {*map(str.upper, restart)} | written, tuple(_inside(program, calls))
+    free = {each.upper(): each for each in inputs if each.upper() not in taken and not each.upper().startswith(inside)}
     return Wiring(wired, tuple(restart), _drives(blocks), tuple(free.values()))
+
+
+def _inside(program: Program, calls: list[_Call]) -> Iterator[str]:
+    """How paths begin that blocks of the library write: their own variables, parts of what is bound to an in-out."""
+    for call in calls:
+        if isinstance(call.block.declaration, FunctionBlock) and call.block.declaration.unit is program.unit:
+            continue
+        in_outs = (each for each in call.bindings.values() if each.parameter.direction is Direction.IN_OUT)
+        bound = (_path(each.value, call.frame) for each in in_outs)
+        for path in filter(None, (call.path, *bound)):
+            yield from (f"{path}.".upper(), f"{path}[".upper())
 
 
 def _drives(blocks: Iterable[_Call]) -> tuple[DriveBlock, ...]:

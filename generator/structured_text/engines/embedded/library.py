@@ -1,6 +1,8 @@
 """What a build gives: instances, function calls, configurations, and the lines that were run."""
 
+import copy
 from collections.abc import Callable, Iterator, Mapping
+from functools import partial
 from itertools import repeat
 from types import FrameType
 from typing import Any
@@ -79,18 +81,23 @@ class GlobalsView:
 class EmbeddedInstance:
     """An instance of a function block or program; `scan` is made for it alone, to cost one call."""
 
-    __slots__ = ("_globals", "_paths", "_root", "scan")
+    __slots__ = ("_globals", "_paths", "_root", "_scanner", "scan")
 
     scan: Callable[..., None]
 
     def __init__(
-        self, paths: Paths, root: Any, scan: Callable[..., None], shared: tuple[Paths, Any] | None = None
+        self, paths: Paths, root: Any, scanner: Callable[[Any], Callable[..., None]], shared: tuple[Paths, Any] | None
     ) -> None:
-        """Take the inner instance, the function that runs it, and the globals, if there are any."""
+        """Take the inner instance, what makes the function that runs it, and the globals, if there are any."""
         self._paths = paths
         self._root = root
         self._globals = shared
-        self.scan = scan
+        self._scanner = scanner
+        self.scan = scanner(root)
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> "EmbeddedInstance":
+        """Another one in the same state; globals stay those of this one."""
+        return EmbeddedInstance(self._paths, copy.deepcopy(self._root, memo), self._scanner, self._globals)
 
     def __getitem__(self, path: str) -> Value:
         try:
@@ -137,7 +144,7 @@ class EmbeddedLibrary:
         root = self.compiler.instance(block, made)
         known, slots = self._globals
         shared = (self.paths(known), GlobalsView(made, slots)) if slots else None
-        return EmbeddedInstance(self.paths(block), root, self._scanner(block, root), shared)
+        return EmbeddedInstance(self.paths(block), root, partial(self._scanner, block), shared)
 
     def paths(self, block: Block) -> Paths:
         """The paths of a block's variables, made at the first call."""
