@@ -25,6 +25,8 @@ NARROWEST = 60
 """Columns below which tables would lose text; a narrower terminal breaks the lines itself."""
 WIDEST = 1000
 """No terminal is wider; COLUMNS may say anything."""
+BESIDE = 54
+"""Columns of a bar beside what it is at."""
 KNOWN = 0.05
 """The share of something from which its pace tells how long the rest takes."""
 MINUTES_FROM = 100
@@ -114,7 +116,7 @@ class Bar:
             *columns, console=screen, auto_refresh=ticks, transient=True, redirect_stdout=False, redirect_stderr=False
         )
         self._task = self._bar.add_task("")
-        self._seen, self._runs = screen.is_terminal, False
+        self._seen, self._runs, self._screen = screen.is_terminal, False, screen
         self._clock, self._since = clock, 0.0
         self._done, self._total = 0.0, 0.0
 
@@ -125,10 +127,14 @@ class Bar:
 
     def show(self, done: float, total: float, text: str) -> None:
         """So much of it is done, and this is what it is at; less than before, or another total, begins anew."""
+        from rich.text import Text
+
         if total != self._total or done < self._done:
             self._since = self._clock()
         self._done, self._total = done, total
-        self._bar.update(self._task, completed=done, total=total, description=text, refresh=self._runs)
+        words = Text(visible(text))
+        words.truncate(max(self._screen.width - BESIDE, 0), overflow="ellipsis")
+        self._bar.update(self._task, completed=done, total=total, description=words.plain, refresh=self._runs)
         if self._seen and not self._runs:
             self._runs = True
             self._bar.start()

@@ -206,6 +206,19 @@ def test_how_long_it_takes_still_is_reckoned_from_the_share_that_is_done(printed
         assert (words in DRAWN.sub("", text)) is Stream.terminal
 
 
+def test_a_bar_has_one_line_however_long_its_words_are(printed: Printed, monkeypatch: pytest.MonkeyPatch) -> None:
+    def work() -> None:
+        monkeypatch.setenv("COLUMNS", "80")
+        bar = console.Bar(console.terminal(), ticks=False, clock=iter((0.0, 0.0, *[50.0] * 9)).__next__)
+        for done in (0, 5):
+            bar.show(done, 10, "power-up: nothing turns, every drive answers, a reset closes the contacts")
+        bar.close()
+
+    text = DRAWN.sub("", printed(function=work)).strip()
+    assert "\n" not in text
+    assert ("50 % 50 s, about 50 s left: power-up: nothing turns, …" in text) is Stream.terminal
+
+
 @pytest.mark.parametrize(
     ("share", "seconds", "said"),
     [

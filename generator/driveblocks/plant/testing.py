@@ -18,6 +18,8 @@ from driveblocks.plant.stand import Broken, Stand
 from structured_text.engines.discovery import EMBEDDED
 from structured_text.engines.engine import ScanError
 
+LOOK_S = 0.2
+"""Between two looks at what is done."""
 Tell = Callable[[int, int, str], None]
 """Takes how many of how many scenes are done, and what is at hand."""
 MOST = 4
@@ -93,9 +95,11 @@ def run(trial: Trial, jobs: int = 1, tell: Tell = lambda *_: None, some: Iterabl
     alike = ([*each] for _, each in groupby(order, key=lambda at: _key(listed[at])))
     shares = [each[at : at + MOST] for each in alike for at in range(0, len(each), MOST)]
     found: dict[int, Outcome] = {}
+    at = "the first scenes"
     for share, played in _played(trial, listed, shares, jobs):
         found |= zip(share, played, strict=True)
-        tell(len(found), len(listed), listed[share[0]].name)
+        at = listed[share[0]].name if share else at
+        tell(len(found), len(listed), at)
     outcomes = tuple(found[at] for at in range(len(listed)))
     seconds = time.perf_counter() - start
     return Run([Result(EMBEDDED, trial.plant.program, "Plant", outcomes, seconds, group="Plant")], seconds)
@@ -104,15 +108,17 @@ def run(trial: Trial, jobs: int = 1, tell: Tell = lambda *_: None, some: Iterabl
 def _played(
     trial: Trial, listed: Sequence[Scene], shares: Sequence[list[int]], jobs: int
 ) -> Iterator[tuple[list[int], list[Outcome]]]:
-    """Shares of scenes, each with its outcomes as soon as they are known."""
+    """Shares of scenes, each with its outcomes as soon as they are known; none where time has passed without."""
     if jobs == 1:
         yield from ((share, [trial.play(listed[at]) for at in share]) for share in shares)
         return
     with ProcessPoolExecutor(jobs, initializer=_TRIALS.append, initargs=(trial,)) as pool:
         waiting = {pool.submit(_share, [listed[at].name for at in share]): share for share in shares}
         while waiting:
-            for each in wait(waiting, return_when=FIRST_COMPLETED).done:
-                yield waiting.pop(each), each.result()
+            done = wait(waiting, LOOK_S, FIRST_COMPLETED).done
+            yield from ((waiting.pop(each), each.result()) for each in done)
+            if not done:
+                yield [], []
 
 
 _TRIALS: list[Trial] = []

@@ -86,8 +86,8 @@ class Setup:
         self._given = given
         with closing(console.Bar(console.terminal())) as bar:
             bar.show(0, 2, "the maps")
-            simulated = [one.name for one in words(options.simulate)]
-            self._maps = given.maps if given else source.asked(options.maps, simulated)
+            named = [one.name for one in words(options.simulate)]
+            self._maps = given.maps if given else source.asked(options.maps, named)
             self._loaded = self._compiled(
                 lambda share: bar.show(1 + share, 2, f"compiling {file_name(self._path.name)}")
             )
@@ -104,9 +104,8 @@ class Setup:
         self._records()
 
     def _compiled(self, tell: Callable[[float], None]) -> source.Loaded:
-        name = file_name(catalog.shown(self._path))
         text = self._given.text if self._given else files.text(self._path)
-        return probe.compiled(name, text, self._maps, self._options.name, tell)
+        return probe.compiled(file_name(catalog.shown(self._path)), text, self._maps, self._options.name, tell)
 
     def _limit(self) -> int:
         if self._options.watchdog is None:
