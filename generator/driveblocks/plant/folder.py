@@ -131,7 +131,7 @@ def settings(plant: Plant, motor: Motor) -> dict[str, list[keypad.Row]]:
     """Title of a group -> the settings of one drive, filled in. Raises ValueError where the drive cannot be so."""
     way = plant.lines[motor.line].way
     silence = motor.values.get("WatchdogMs")
-    wanted = keypad.wanted(motor.map, motor.unit, way.rate, way.form, silence / 1000 if silence else None)
+    wanted = keypad.wanted(motor.map, motor.unit, way.rate, way.form, silence / 1000 if silence else None, way.mode)
     found = keypad.rows(motor.map, wanted)
     ramps = {id_: f"**{seconds:g} s**" for id_, seconds in _ramps(motor)}
     return {name: [_filled(motor, each, ramps) for each in rows] for name, rows in found.items()}

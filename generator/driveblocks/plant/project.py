@@ -27,7 +27,7 @@ class Plan:
     left: Mapping[str, str]
     """Path -> what a person has to be told of a file that is left as it is."""
     changes: Mapping[str, str]
-    """Path -> the difference that a file of the layer `yours` gets."""
+    """Path -> the difference that a program gets."""
 
 
 def plan(folder: Path, plant: str, target: str, made: Mapping[str, str]) -> Plan:
@@ -55,7 +55,7 @@ def plan(folder: Path, plant: str, target: str, made: Mapping[str, str]) -> Plan
         why = _why(states.get(name), made.get(name, ""), given)
         if why:
             left[name] = "\n".join([why, *yours.difference(name, here, texts.get(name, ""))] if name in made else [why])
-        elif _own(name) and name in states and name in made:
+        elif name in states and yours.has_places(texts.get(name, "")):
             changes[name] = "\n".join(yours.difference(name, here, texts[name]))
     return Plan(old, texts, {name: each for name, each in states.items() if name not in left}, left, changes)
 

@@ -10,8 +10,9 @@ import re
 from collections.abc import Iterator
 
 _PLACE = re.compile(r"(\(\* your own: begin (\w+) \*\))(.*?)([ \t]*\(\* your own: end \2 \*\))", re.DOTALL)
+_PROGRAM = re.compile(r"<pou [^>]*pouType=\"program\".*?</pou>", re.DOTALL)
 _SAID = re.compile(r"<xhtml(?::p)?(?: [^>]*[^/>])?>(?:<!\[CDATA\[)?(.*?)(?:\]\]>)?</xhtml(?::p)?>", re.DOTALL)
-"""A text in a file of TC6."""
+"""A program, and a text, in a file of TC6."""
 MOST_LINES = 200
 """Of a difference that is shown."""
 
@@ -20,6 +21,11 @@ def contents(text: str) -> dict[str, str]:
     """What is between the marks of each place, with plain line ends; places that are empty are left out."""
     found = {name: inner for _, name, inner, _ in _PLACE.findall(_plain(text))}
     return {name: inner for name, inner in found.items() if inner.strip()}
+
+
+def has_places(text: str) -> bool:
+    """Whether it is a program that a person reads and writes; a ladder is not, nor a list of files."""
+    return bool(_PLACE.search(text))
 
 
 def emptied(text: str) -> str:
@@ -49,9 +55,11 @@ def difference(name: str, old: str, new: str) -> Iterator[str]:
 
 
 def _readable(name: str, text: str) -> str:
-    """Of a file in XML, the texts in it; a ladder has none, and is drawn anew."""
+    """Of a file in XML, the texts of its programs."""
     plain = _plain(text).removeprefix("\ufeff")
-    return html.unescape("\n".join(_SAID.findall(plain))) if name.endswith(".xml") else plain
+    if not name.endswith(".xml"):
+        return plain
+    return html.unescape("\n".join(said for each in _PROGRAM.findall(plain) for said in _SAID.findall(each)))
 
 
 def _plain(text: str) -> str:

@@ -32,7 +32,7 @@ _PLAIN = re.compile(r"RUNTIME|ABS|(?!REAL_TO_D?WORD)[A-Z]+_TO_[A-Z]+")
 _SECTIONS = {
     "TYPE": ("STRUCT",),
     "FUNCTION": ("VAR_INPUT", "VAR_TEMP", "VAR CONSTANT"),
-    "FUNCTION_BLOCK": ("VAR_INPUT", "VAR_OUTPUT", "VAR_IN_OUT", "VAR", "VAR CONSTANT"),
+    "FUNCTION_BLOCK": ("VAR_INPUT", "VAR_OUTPUT", "VAR_IN_OUT", "VAR", "VAR RETAIN", "VAR CONSTANT"),
 }
 _SYSTEM = {
     "SEND_P2P": "REQ:BOOL PORT:PORT BUFFER:* LENGTH:UINT DONE:BOOL ERROR:BOOL STATUS:WORD",
@@ -213,7 +213,7 @@ class _Reader:
     def section(self, kind: str) -> None:
         """One section of declarations."""
         name = self.take().upper()
-        if name == "VAR" and self.at("CONSTANT"):
+        if name == "VAR" and (self.at("CONSTANT") or self.at("RETAIN")):
             name = f"VAR {self.take()}".upper()
         if name not in _SECTIONS[kind] or any(one.section == name for one in self.block.variables):
             raise self.fail(f"no {name} here")
