@@ -94,7 +94,7 @@ def _text(seed: int, lines: Sequence[Line], drives: Sequence[Motor], chance: ran
             each.mode = chance.choice(("speed", "monitor"))
     yield f"plant: Drawn {chr(65 + seed % 26)}{seed}\nscan_ms: {chance.choice((5, 10, 10, 20))}\nlines:\n"
     yield from (
-        f'  {one.name}: {{port: "{at}", rate: {one.rate}, form: "{one.form}"}}\n' for at, one in enumerate(lines)
+        f'  {one.name}: {{port: {at}, rate: {one.rate}, form: "{one.form}"}}\n' for at, one in enumerate(lines, 1)
     )
     yield "drives:\n"
     for line in lines:

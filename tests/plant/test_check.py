@@ -97,6 +97,17 @@ def test_a_map_that_is_bad_or_clashes_is_said_at_its_drive(tmp_path: Path) -> No
     assert "prefix CHF is taken by" in found.wrong
 
 
+def test_a_map_of_ones_own_is_beside_the_plant(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    own = (EXAMPLES.parents[1] / "tests/maps/example.yaml").read_text("utf-8")
+    (tmp_path / "maps").mkdir()
+    (tmp_path / "maps/mine.yaml").write_text(own, encoding="utf-8")
+    path = tmp_path / "works.yaml"
+    path.write_text(WORKS.replace("drive: jscc", "drive: maps/mine.yaml"), encoding="utf-8")
+    monkeypatch.chdir(EXAMPLES)
+    motor = load.load(path).drives["P1"]
+    assert (motor.path, motor.map.prefix) == (tmp_path / "maps/mine.yaml", "EX100")
+
+
 def test_a_plant_that_may_not_fit_is_good_with_a_warning(tmp_path: Path) -> None:
     text = (
         'plant: One\ncpu: S7-1217C\nlines:\n  A: {port: "1"}\ndrives:\n'
@@ -151,6 +162,24 @@ def test_what_commission_found_of_no_drive_or_of_another_is_a_warning(tmp_path: 
         "no drive is called X9, of which commission has found this",
         "commission has found a jscc at P2, and the plant has invt_chf",
     ]
+
+
+def test_a_button_that_can_reset_nothing_over_the_line_is_a_warning(tmp_path: Path) -> None:
+    path = tmp_path / "works.yaml"
+    buttons = "  StartPumps: {start: Pumps}\n  ResetP1: {reset: P1}\n  ResetPumps: {reset: Pumps}\n"
+    path.write_text(WORKS.replace("  StartPumps: {start: Pumps}\n", buttons), encoding="utf-8")
+    (warning,) = [each for each in check.judged(path).warnings if each.line > 18]
+    assert (warning.line, warning.column) == (19, 20)
+    assert warning.wrong == "ResetP1 resets no fault of P1: JSCC takes no reset over the line"
+
+
+def test_the_hard_stop_of_a_plant_without_any_has_a_name_of_its_own(tmp_path: Path) -> None:
+    text = WORKS[: WORKS.index("hard_stops:")] + WORKS[WORKS.index("meters:") :]
+    path = tmp_path / "works.yaml"
+    assert not problems(path, text)
+    assert load.load(path).hard_stops["HardStop"].drives == ("P1", "P2", "P3", "F1", "F2")
+    (found,) = problems(path, text.replace("  PumpsRun:", "  Hardstop:"))
+    assert (found.line, found.wrong) == (21, "`Hardstop` is a variable of the program itself")
 
 
 def test_how_a_line_is_spoken_on_is_as_all_its_drives_are_delivered(tmp_path: Path) -> None:

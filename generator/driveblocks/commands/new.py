@@ -20,10 +20,10 @@ from structured_text.visible import file_name
     "-o", "--output", type=FILE, metavar="FILE", help="File to write; else PREFIX in small letters, or plant.yaml."
 )
 def run(name: str, plant: bool, output: Path | None) -> None:
-    """Write a first map, or a first plant, with comments that say what to replace.
+    """Write a first map, or a first plant, to go on from.
 
-    It is valid as it is, so every mistake that `driveblocks check` reports later is yours. On a terminal a plant is
-    asked for line by line. A file that exists is never touched: the exit status is 2.
+    Its comments say what to replace. It is valid as it is, so every mistake that `driveblocks check` reports later is
+    yours. On a terminal a plant is asked for line by line. A file that exists is never touched: the exit status is 2.
 
     Examples: driveblocks new ACME -o acme_100.yaml, driveblocks new --plant "Pumping station"
     """

@@ -47,6 +47,7 @@ def judged(path: Path) -> Judged:
         name.check(plant, report)
         reference.check(plant, report)
         memory.check(plant, report)
+        drive.unable(plant, warnings)
         _unused(plant, warnings)
     report.raise_if_any()
     assert plant is not None  # noqa: S101 - else something was noted

@@ -16,6 +16,16 @@ from driveblocks.modbus.frame import Mode
 
 _NUMBER = r"(0|[1-9][0-9]{0,5})(\.[0-9]{1,6})?"
 Label = Annotated[str, Form("name", LABEL, str, "write up to 24 letters and digits, a letter first")]
+Port = Annotated[
+    str,
+    Form(
+        "port",
+        re.compile("[1-9][0-9]{0,4}|[A-Za-z/][A-Za-z0-9/_.:-]{0,39}"),
+        str,
+        "write its number, or a name such as COM3 or /dev/ttyUSB0",
+        numeric=True,
+    ),
+]
 Amount = Annotated[
     Decimal, Form("amount", re.compile(_NUMBER), Decimal, "write a number such as 50 or 2.5", numeric=True)
 ]
@@ -71,7 +81,7 @@ class Gathered(Called):
 class Line(Called):
     """An RS-485 line."""
 
-    port: Str = fact("the port of the PLC, or its adapter", '"1"')
+    port: Port = fact("the port of the PLC: its number, or a name such as COM3 or /dev/ttyUSB0", "1")
     rate: Count | None = option("bits per second; else what its drives have as delivered", "19200")
     form: CharacterForm | None = option("data bits, parity, stop bits; else likewise", '"8E1"')
     mode: Mode | None = option("framing; else rtu where all its drives have it", "rtu")
@@ -267,7 +277,8 @@ class Plant(Entry):
 
     def members(self, name: str) -> list[Motor]:
         """The drives of a group, or the drive of that name."""
-        return [self.drives[each] for each in (self.groups[name].drives if name in self.groups else (name,))]
+        names = self.groups[name].drives if name in self.groups else (name,)
+        return [self.drives[each] for each in names if each in self.drives]
 
     def group_of(self, drive: str) -> Group | None:
         """The group of a drive; it is in one at most."""

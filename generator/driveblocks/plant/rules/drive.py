@@ -4,12 +4,14 @@ from decimal import Decimal
 
 from driveblocks.desk.run.drives import open_scales
 from driveblocks.docs.keypad import no_time
+from driveblocks.maps.model import Drive
 from driveblocks.maps.problem import Report
 from driveblocks.maps.revision import checked
 from driveblocks.maps.trust import second_hand
 from driveblocks.meaning.reference import Reference, reference
 from driveblocks.meaning.serial import serial
 from driveblocks.meaning.watchdog import watchdog
+from driveblocks.meaning.words import words
 from driveblocks.plant.model import Motor, Plant
 from driveblocks.plant.rules.reference import known
 
@@ -33,6 +35,22 @@ def check(plant: Plant, report: Report) -> None:
         _speed(plant, each, report)
         _settings(each, report)
         _checked(each, report)
+
+
+def unable(plant: Plant, warnings: Report) -> None:
+    """Warn of buttons that reset no fault, since the line cannot: they close the contact of the hard stop alone."""
+    for button in plant.buttons.values():
+        name = button.reset
+        if name is not None:
+            drives = plant.members(name)
+            if drives and not any(_resets(each.map) for each in drives):
+                families = ", ".join(sorted({each.map.prefix for each in drives}))
+                wrong = f"{button.name} resets no fault of {name}: {families} takes no reset over the line"
+                warnings.add(button.place("reset"), wrong, "it closes the contact of the hard stop; reset at the drive")
+
+
+def _resets(drive: Drive) -> bool:
+    return any(each.does == "fault_reset" for each in words(drive).commands)
 
 
 def _unit(motor: Motor, report: Report) -> None:

@@ -1,5 +1,7 @@
 """Rules on names: each becomes a variable of the program, in every programming system."""
 
+from collections.abc import Collection
+
 from driveblocks.desk.site.kept import LABEL
 from driveblocks.maps import names
 from driveblocks.maps.problem import Report
@@ -16,12 +18,13 @@ OWN = ("FirstScan", "ElapsedMs", "All", "Hmi")
 def check(plant: Plant, report: Report) -> None:
     """Note every name that no program can have, and what two things share."""
     _program(plant, report)
+    own = {name.upper() for name in OWN} | {each.name.upper() for each in plant.hard_stops.values() if unwritten(each)}
     taken: dict[str, Called] = {}
     for section in SECTIONS:
         for name, each in getattr(plant, section).items():
-            if each.name_at == (0, 0):
-                continue  # nobody has written it
-            if wrong := _wrong(name):
+            if unwritten(each):
+                continue
+            if wrong := _wrong(name, own):
                 report.add(each.name_at, f"`{name}` {wrong}", "choose another name")
             first = taken.setdefault(name.upper(), each)
             if first is not each:
@@ -29,7 +32,12 @@ def check(plant: Plant, report: Report) -> None:
                 report.add(each.name_at, wrong, "give each a name of its own; capital letters make no difference")
 
 
-def _wrong(name: str) -> str:
+def unwritten(each: Called) -> bool:
+    """Whether it is not in the file: the hard stop of a plant without any."""
+    return each.name_at == (0, 0)
+
+
+def _wrong(name: str, own: Collection[str]) -> str:
     """Why a variable of a program cannot have a name; empty: it can."""
     if not LABEL.fullmatch(name):
         return ""  # said where it was read
@@ -39,7 +47,7 @@ def _wrong(name: str) -> str:
         return f"has {len(name)} letters and digits, and {LONGEST} are possible"
     if kept(name, TARGET_WORDS):
         return "is a word of a programming system"
-    return "is a variable of every program" if name.upper() in {each.upper() for each in OWN} else ""
+    return "is a variable of the program itself" if name.upper() in own else ""
 
 
 def _program(plant: Plant, report: Report) -> None:

@@ -5,6 +5,7 @@ from collections.abc import Collection, Iterator
 from driveblocks.maps.decode import nearest
 from driveblocks.maps.problem import Place, Report
 from driveblocks.plant.model import DOES, SHOWS, Button, Gathered, Group, Lamp, Plant
+from driveblocks.plant.rules.name import unwritten
 
 COUNTS = range(-32768, 32768)
 """Of an analog input: an INT of the PLC."""
@@ -125,7 +126,7 @@ def _kind(group: Group, report: Report) -> None:
 def _hard_stops(plant: Plant, report: Report) -> None:
     taken: dict[str, str] = {}
     for one in plant.hard_stops.values():
-        for drive in _named(plant, one, report) if one.name_at != (0, 0) else one.drives:
+        for drive in one.drives if unwritten(one) else _named(plant, one, report):
             first = taken.setdefault(drive, one.name)
             if first != one.name:
                 report.add(one.drive_at(drive), f"{drive} is in hard stop {first}, too", "leave it in one of them")
