@@ -10,10 +10,12 @@ from typing import Any
 
 from driveblocks.desk.site.line import Figures
 from driveblocks.docs import chain, keypad, sto
+from driveblocks.docs.timing import proves_while_tripped
 from driveblocks.maps.model import Drive
 from driveblocks.maps.view import title
 from driveblocks.meaning.advice import advice
 from driveblocks.meaning.plug import plug
+from driveblocks.meaning.reference import reference
 from driveblocks.meaning.setting import Setting, in_order
 from driveblocks.plant import drawing, figures, paper
 from driveblocks.plant.model import Group, Line, Motor, Plant
@@ -85,6 +87,7 @@ def _electrician(plant: Plant) -> dict[str, Any]:
         "reasons": [(each.code, each.en, ASIDE.sub(r"\1", each.remedy)) for each in REASONS],
         "lamps": list(_lamps(plant)),
         "stops": list(_stops(plant)),
+        "alone": [each.name for each in plant.drives.values() if not proves_while_tripped(each.map)],
         "blank": keypad.BLANK,
     }
 
@@ -151,8 +154,8 @@ def _filled(motor: Motor, row: keypad.Row, ramps: Mapping[str, str]) -> keypad.R
     one, run = row.setting, motor.map.operation
     if one.id in ramps:
         return replace(row, set_to=ramps[one.id])
-    if one.id == run.reference.maximum and motor.full_scale_hz:
-        return replace(row, set_to=f"**{motor.full_scale_hz:f} Hz**")
+    if one.id == run.reference.maximum and reference(motor.map).percent:
+        return replace(row, set_to=f"**{motor.full_scale_hz or motor.maximum_hz:f} Hz**")
     if motor.mode == "speed" and one.needed and one.needed.by_terminals is not None:
         return replace(row, set_to=f"**{one.said_of(one.needed.by_terminals)}**", wire=_wire(one))
     return row

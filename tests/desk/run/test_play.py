@@ -92,6 +92,20 @@ def test_an_input_that_is_toggled_twice_between_two_scans_is_as_it_was() -> None
     assert "Hz takes a number, not `nothing`" in desk.told()
 
 
+def test_a_drive_of_several_lines_is_named_by_its_block() -> None:
+    plays, told = (Play(UNITS), Play(UNITS)), list[tuple[int, str]]()
+    for at, each in enumerate(plays):
+        each.act = lambda happening, at=at: told.append((at, happening.says))  # type: ignore[misc]
+    both = Plays(plays, {"Motor": (plays[0], 7), "Fan": (plays[1], 7)})
+    with pytest.raises(ValueError, match="there are 2 lines: name the drive, such as MOTOR"):
+        both.typed("d 7", 0)
+    for line in ("d Fan", "trip 4 motor", "clear"):
+        assert both.takes(line)
+        both.typed(line, 0)
+    assert [*both.due(0)] == ["trip 4 7", "clear", "power off 7", "clear"]
+    assert told == [(0, "trip 4 7"), (0, "clear"), (1, "power off 7"), (1, "clear")]
+
+
 def test_what_happens_reaches_drives_in_another_process_that_runs_nothing_of_the_folder(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

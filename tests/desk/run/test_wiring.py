@@ -181,6 +181,12 @@ def test_each_line_has_its_port_and_the_drives_of_its_slots() -> None:
     assert "cannot be seen on which line Fan is" in told(TWO.replace("Slots2[1]", "Slots2[Quotient]"))
 
 
+def test_what_a_block_of_the_library_writes_is_no_input() -> None:
+    scale = "  Level : VFD_Scale;\n  Raw : INT;\nEND_VAR\n  Level(Raw := Raw);\n"
+    text = ONE.replace("END_VAR\n", scale).replace("SpeedReferenceHz := Hz", "SpeedReferenceHz := Level.Value")
+    assert wired(text).inputs == ("Start",)
+
+
 def test_the_drives_of_two_lines_turn_and_are_stopped_at_the_end() -> None:
     fan = SimulatedDrive(MAPS["CHF"], 7)
     desk = Desk(TWO, others=[fan]).scan(3000)
