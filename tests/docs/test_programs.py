@@ -15,8 +15,8 @@ from structured_text.language.lint import lint_sources
 ROOT = Path(__file__).parents[2]
 FENCE = re.compile(r"^```\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 ELSEWHERE = {
-    "before-buying.md", "ci.md", "first-hour.md", "lint.md", "linux.md", "listen.md", "plant-test.md", "prove.md",
-    "run.md", "save-parameters.md", "simulate.md", "stop.md", "what-changed.md",
+    "before-buying.md", "ci.md", "first-hour.md", "lint.md", "linux.md", "listen.md", "plant-test.md", "program.md",
+    "prove.md", "run.md", "save-parameters.md", "simulate.md", "stop.md", "what-changed.md",
 }  # fmt: skip
 """Pages whose blocks are commands, rules, formulas or C; tests of their own take what runs."""
 HARD_STOP = (
