@@ -22,7 +22,7 @@ TYPES = {
     "MB_LifeTrack": 21, "MB_OwnerTrack": 9, "MB_Track": 75, "MB_Given": 24, "MB_Heard": 83, "MB_Sums": 81,
     "MB_LineTrack": 21, "MB_Slots8": 8 * 254, "MB_Slots2": 2 * 254,
     "MB_Slots32": 32 * 254, "MB_Tracks8": 8 * 75, "MB_Tracks2": 2 * 75, "MB_Tracks32": 32 * 75, "VFD_Settings": 42,
-    "VFD_Counted": 8, "VFD_Member": 17, "VFD_Members": 272,
+    "VFD_Counted": 8, "VFD_Member": 18, "VFD_Members": 288,
     "VFD_Diagnosis": 145, "VFD_Asked": 13, "VFD_Seen": 35,
 }  # fmt: skip
 """ABI 1, typed by hand: 256 bytes; 513 characters; 125 words; 513 words; six fields of two bytes;

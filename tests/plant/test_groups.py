@@ -12,9 +12,10 @@ PINS = """
 PROGRAM Pins
 VAR
   Run : BOOL; Restart : BOOL; Chain : BOOL; Count : UINT := 3; Duty : UINT := 1; Change : UINT; DelayMs : UINT;
+  ElapsedMs : UINT := 10;
   Members : VFD_Members; Group : {block};
 END_VAR
-  Group({pins}, Run := Run, Restart := Restart, Count := Count, Members := Members);
+  Group(ElapsedMs := ElapsedMs, {pins}, Run := Run, Restart := Restart, Count := Count, Members := Members);
 END_PROGRAM
 """
 READY = {"CommOk": True, "Ready": True, "Running": False, "Fault": False, "StopConfirmed": True, "Halted": False}
@@ -28,9 +29,7 @@ class Group:
     """A group block, and what its drives show."""
 
     def __init__(self, block: str, count: int = 3, **pins: Value) -> None:
-        given = {"VFD_Duty": "Duty := Duty, Change := Change"}.get(
-            block, "ElapsedMs := 10, Chain := Chain, DelayMs := DelayMs"
-        )
+        given = {"VFD_Duty": "Duty := Duty, Change := Change"}.get(block, "Chain := Chain, DelayMs := DelayMs")
         made = source.load("pins.st", PINS.format(block=block, pins=given), source.known([]))
         self.program: EmbeddedInstance = made.library.instance("Pins")
         self.count = count
@@ -102,6 +101,61 @@ def test_command_of_the_first_call_starts_nothing_where_no_drive_is_known() -> N
     assert made.call(True) == [False] * 3
     made.show(READY, READY, READY)
     assert made.call(True) == [False] * 3
+
+
+@pytest.mark.parametrize("block", ["VFD_Duty", "VFD_Group"])
+def test_call_that_comes_late_acts_like_a_restart(block: str) -> None:
+    made = Group(block)
+    made.show(READY, READY, READY)
+    made.call(False)
+    assert any(made.call(True, ElapsedMs=1000))
+    made.follow()
+    assert any(made.call(True))
+    assert made.call(True, ElapsedMs=1001) == [False] * 3
+    made.show(READY, READY, READY)
+    assert made.call(True, ElapsedMs=10) == [False] * 3
+
+
+def test_drive_that_fell_silent_does_not_take_a_place_again() -> None:
+    made = Group("VFD_Duty", Duty=2)
+    made.show(READY, READY, READY)
+    made.call(False)
+    assert made.call(True) == [True, True, False]
+    made.follow()
+    made.show(SILENT, SILENT, SILENT)
+    made.call(True)
+    made.show(READY, READY, READY)
+    assert made.call(True) == [False, False, True]
+    made.follow()
+    assert made.call(True) == [False, False, True]
+    assert made["Short"]
+    made.call(False)
+    made.follow()
+    assert made.call(True) == [True, True, False]
+
+
+def test_drive_that_was_stopped_elsewhere_is_no_standby() -> None:
+    made = Group("VFD_Duty", Duty=2)
+    made.show(READY, READY)
+    made.call(False)
+    assert made.call(True) == [True, True, False]
+    made.show_one(1, RUNNING)
+    assert made.call(True) == [False, True, False]
+    made.show_one(1, STANDS)
+    assert made.call(True) == [False] * 3
+
+
+@pytest.mark.parametrize("hand", [STANDS, READY | {"Halted": True, "Ready": False}])
+def test_drive_that_a_hand_has_put_right_is_a_standby_again(pumps: Group, hand: dict[str, Value]) -> None:
+    pumps.show_one(0, STANDS)
+    assert pumps.call(True) == [False, True, False]
+    pumps.follow()
+    pumps.show_one(0, hand)
+    pumps.call(True)
+    pumps.show_one(0, READY)
+    assert pumps.call(True) == [False, True, False]
+    pumps.show_one(1, STANDS)
+    assert pumps.call(True) == [True, False, False]
 
 
 def test_restart_stops_all_until_a_new_edge(pumps: Group) -> None:

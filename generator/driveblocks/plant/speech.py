@@ -1,7 +1,6 @@
 """What the drives of a line have in common: bit rates, characters, framing; and what the line is to be."""
 
 from collections.abc import Collection, Iterable
-from dataclasses import dataclass
 from typing import get_args
 
 from driveblocks.desk.site.found import Way
@@ -12,31 +11,14 @@ from driveblocks.modbus.frame import Mode
 from driveblocks.plant.model import Line
 
 
-@dataclass(frozen=True)
-class Shared:
-    """What all of some drives have, the lowest first; no rates: no manual names any."""
-
-    rates: tuple[int, ...]
-    modes: tuple[Mode, ...]
-    forms: tuple[str, ...]
-    named: bool
-    """A manual names its rates."""
-
-
 def forms(drive: Drive, mode: Mode) -> tuple[str, ...]:
     """The characters that a drive has in a framing; where its map lists none, all: RTU has 8 data bits."""
     return tuple(each for each in chosen.forms(drive, mode) or FORMS if mode == "ascii" or each[0] == "8")
 
 
-def shared(drives: Collection[Drive], mode: Mode) -> Shared:
-    """What they have in common in a framing."""
-    rates = [set(serial(each).rates) for each in drives if serial(each).rates]
-    return Shared(
-        tuple(sorted(set.intersection(*rates))) if rates else (),
-        tuple(each for each in get_args(Mode) if all(each in serial(one).modes for one in drives)),
-        tuple(sorted(set.intersection(*({*forms(each, mode)} for each in drives)))),
-        bool(rates),
-    )
+def modes(drives: Collection[Drive]) -> tuple[Mode, ...]:
+    """The framings that all of them have, RTU first."""
+    return tuple(each for each in get_args(Mode) if all(each in serial(one).modes for one in drives))
 
 
 def delivered(drives: Iterable[Drive]) -> tuple[set[int], set[str]]:
@@ -48,5 +30,5 @@ def delivered(drives: Iterable[Drive]) -> tuple[set[int], set[str]]:
 def way(line: Line, drives: Collection[Drive]) -> Way:
     """How a line is spoken on: as it says, else as all its drives are delivered; where they differ, any of it."""
     rates, characters = delivered(drives)
-    mode = line.mode or ("rtu" if all("rtu" in serial(each).modes for each in drives) else "ascii")
-    return Way(line.rate or min(rates), line.form or min(characters), mode)
+    common = modes(drives) or ("rtu",)
+    return Way(line.rate or min(rates), line.form or min(characters), line.mode or common[0])

@@ -66,14 +66,14 @@ def _meter(meter: Meter, report: Report) -> None:
 def _spoken(line: Line, drives: list[Motor], report: Report) -> None:
     """How the line is spoken on: what each drive has, and what all have."""
     way, maps = line.way, [each.map for each in drives]
-    common = speech.shared(maps, way.mode)
-    if not common.modes:
+    modes = speech.modes(maps)
+    if not modes:
         report.add(line.name_at, f"the drives of line {line.name} have no framing in common", _apart(drives))
         return
     for each in drives:
         if way.mode not in serial(each.map).modes:
             wrong = f"{each.name} ({each.map.prefix}) speaks no {way.mode.upper()}"
-            report.add(line.place("mode"), wrong, f"write `mode: {common.modes[0]}`")
+            report.add(line.place("mode"), wrong, f"write `mode: {modes[0]}`")
     rates, forms = speech.delivered(maps)
     lists = {each.name: serial(each.map).rates for each in drives}
     written = str(line.rate or ""), line.form or ""
