@@ -374,3 +374,23 @@ def test_sequence_ends_where_the_next_is_not_ready_any_more() -> None:
     made.follow()
     made.show_one(1, STANDS)
     assert made.call(True) == [False] * 3
+
+
+def test_reset_counts_for_one_fault() -> None:
+    made = Group("VFD_Duty", Duty=2)
+    made.show(READY, READY, READY)
+    made.call(False)
+    made.call(True)
+    made.follow()
+    made.show_one(0, STANDS)
+    assert made.call(True) == [False, True, True]
+    made.follow()
+    made.show_one(0, READY)
+    made.call(True)
+    made.show_one(1, STANDS)
+    assert made.call(True) == [True, False, True]
+    made.follow()
+    made.show_one(0, READY)
+    assert made.call(True) == [False, False, True]
+    made.show_one(2, STANDS)
+    assert made.call(True) == [False] * 3
