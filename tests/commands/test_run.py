@@ -185,7 +185,7 @@ def test_a_named_map_takes_the_place_of_the_shipped_one(program: Path, name: str
     for simulate in ((), ("chf@7",), (f"{name}@7",)):
         maps = () if simulate == (f"{name}@7",) else (name,)
         made = Setup(Options(program=program, maps=maps, simulate=simulate, fast=True, length="1s"), Keyboard(0))
-        assert [one.path for one in made._drives] == [Path(name)]
+        assert [one.path for one in made._lines[0]] == [Path(name)]
         assert shipped not in [each.path for each in made._maps]
 
 
