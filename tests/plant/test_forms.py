@@ -16,11 +16,13 @@ from tests.platforms.siemens import scl
 from tests.platforms.tc6_checks import DIALECTS, Made
 from tests.platforms.tc6_reader import File
 
+from driveblocks.desk.run.source import known, needed
 from driveblocks.plant import forms, program
 from driveblocks.platforms.part import Part
 from driveblocks.render.library import EXTRAS
 from driveblocks.render.text import ENGLISH
 from structured_text.engines.matiec.installation import Installation
+from structured_text.language.lint import lint_sources
 from structured_text.language.parser import parse
 
 STRUCPP = shutil.which("strucpp")
@@ -139,6 +141,13 @@ def test_text(name: str, target: str) -> None:
     text = made(name, target)[f"yours/{example(name).program}.st"]
     assert text.startswith(program.source(example(name), forms.PORTS[target]))
     assert all(len(line) <= 120 for line in text.splitlines())
+
+
+@pytest.mark.parametrize("name", PLANTS)
+def test_it_lints_clean(name: str) -> None:
+    text = program.text(example(name))
+    library = needed([parse(text, "plant.st")], known())
+    assert lint_sources([*((each.path, each.text) for each in library), ("plant.st", text)]) == []
 
 
 @pytest.mark.thorough
