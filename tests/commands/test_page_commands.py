@@ -33,6 +33,7 @@ ELSEWHERE = {
     r"driveblocks test( --|$)": "minutes for three families; tests/testing runs their programs",
     r"driveblocks test my_drive.yaml ": "tests/commands/test_test.py tests this map",
     r"driveblocks test acme.yaml$": "tests/blocks/test_promise.py tests what `driveblocks new` writes",
+    r"driveblocks (test|run) plant.yaml": "half a minute, and no end; tests/plant/test_trial.py, test_run.py",
     r"driveblocks run my_line.st --(port|tcp 192)": "a real port",
     r"driveblocks commission .": "a real port; tests/desk/site/test_commission.py has it",
     r"driveblocks listen .": "a real port; tests/desk/site/test_listen.py has it",
