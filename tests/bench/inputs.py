@@ -16,6 +16,9 @@ REPLY_ASCII = b":" + (BODY + bytes((-sum(BODY) % 256,))).hex().upper().encode() 
 REQUEST = {"UnitAddress": 1, "FunctionCode": 3, "Address": 0, "Quantity": 10, "SubFunction": 0, "Value": 0}
 
 USUAL: dict[str, Pin] = {
+    "Counted": {},
+    "Member": {},
+    "Members": {},
     "Number": 10,
     "Character": 0x41,
     "Length": len(BODY),

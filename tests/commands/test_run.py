@@ -187,11 +187,7 @@ def test_a_named_map_takes_the_place_of_the_shipped_one(program: Path, name: str
     for simulate in ((), ("chf@7",), (f"{name}@7",)):
         maps = () if simulate == (f"{name}@7",) else (name,)
         made = Setup(Options(program=program, maps=maps, simulate=simulate, fast=True, length="1s"), Keyboard(0))
-<<<<<<< HEAD
         assert [one.path for line in made._lines for one in line] == [Path(name)]
-=======
-        assert [one.path for one in made._lines[0]] == [Path(name)]
->>>>>>> folder
         assert shipped not in [each.path for each in made._maps]
 
 

@@ -21,7 +21,7 @@ WHAT = {
     LINE32: "a line of up to 32 drives",
     PARAMETERS: "reads, writes and stores parameters of a drive",
     METER: "a meter or a sensor on the line; needs `Parameters`",
-    PLANT: "groups with duty and standby, analog inputs, hours and starts",
+    PLANT: "groups, standby, analog inputs, hours",
     FRAMES: "frames without a line, in RTU and ASCII",
     CHINESE: "texts in Chinese",
 }
