@@ -7,7 +7,8 @@ WIRE = {
 """Columns inverter and read of the mapping table, page 112."""
 SCALING = {
     "P0640": (10, "%"), "P1120": (100, "s"), "P1121": (100, "s"), "P2000": (100, "Hz"), "r0024": (100, "Hz"),
-    "r0022": (1, "r/min"), "r0027": (100, "A"), "r0031": (100, "Nm"), "r0032": (100, "kW"), "r0039": (1, "kWh"), "r0026": (1, "V"),
+    "r0022": (1, "r/min"), "r0027": (100, "A"), "r0031": (100, "Nm"), "r0032": (100, "kW"),
+    "r0039": (1, "kWh"), "r0026": (1, "V"),
 }  # fmt: skip
 """Its scaling factor, by which a value is multiplied (page 115), and its unit."""
 NEGATIVE = {"r0024", "r0022", "r0031"}
@@ -18,7 +19,7 @@ WORDS = {
     "run_forward": (0x047E, 0x047F), "run_reverse": (0x0C7E, 0x0C7F), "stop": (0x047E,), "quick_stop": (0x047B,),
     "coast_stop": (0x047D,), "fault_reset": (0x047E, 0x04FE),
 }  # fmt: skip
-"""G pages 194, 195: ON is bit 0 rising, bits 1 to 6 and 10 are 1; 0 of bits 0, 1, 2 is OFF1, OFF2, OFF3; bit 7 rises."""
+"""G pages 194, 195: ON is bit 0 rising, bits 1 to 6 and 10 are 1; 0 of bits 0, 1, 2 is OFF1, 2, 3; bit 7 rises."""
 STATUS = {"running": 2, "fault": 3, "warning": 7}
 """G page 199, ZSW1."""
 NEEDED = {"P0003": 3, "P0700": 5, "P2023": 2}
