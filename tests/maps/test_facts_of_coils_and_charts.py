@@ -93,7 +93,7 @@ def test_v20_registers_scales_and_signs() -> None:
     for name, (times, unit) in v20.SCALING.items():
         scale = found[name].scale
         assert scale is not None, name
-        assert (scale.factor * times, found[name].unit) == (1, unit), name
+        assert (float(scale.factor * times), found[name].unit) == (1.0, unit), name
         assert found[name].signed == (name in v20.NEGATIVE), name
     for wire, bit in v20.SINGLE.items():
         row = V20.register_at(wire)
@@ -124,5 +124,5 @@ def test_v20_line_settings_and_watchdog() -> None:
     watchdog = V20.watchdog
     assert watchdog is not None
     assert watchdog.time is not None
-    assert (watchdog.time.setting, watchdog.time.milliseconds, watchdog.fault) == v20.WATCHDOG
+    assert (watchdog.time.setting, int(watchdog.time.milliseconds), watchdog.fault) == v20.WATCHDOG
     assert set(watchdog.fed_by) == {99, 100}
