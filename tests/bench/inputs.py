@@ -93,6 +93,10 @@ SPECIAL: dict[str, dict[str, Pin]] = {
     "SN300G5_Request": {"Address": 0x0020},
     "SN300G5_CanRead": {"Address": 0x0020},
     "SN300G5_CanWrite": {"Address": 0x0001, "Quantity": 1},
+    "V20_Request": {"Address": 0x006D, "Quantity": 1},
+    "V20_CanRead": {"Address": 0x006D, "Quantity": 1},
+    "V20_CanWrite": {"Address": 0x0063, "Quantity": 2},
+    "V20_BitTextEn": {"Address": 0x006D},
 }
 """Block -> what is special in it: the addresses that a drive has, the frame that goes the other way."""
 

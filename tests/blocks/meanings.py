@@ -11,7 +11,7 @@ from driveblocks.reference.naming import name_of
 
 UNITS = {
     "Hz": "Hz", "A": "A", "V": "V", "kW": "KW", "W": "W", "%": "Percent", "r/min": "Rpm", "Nm": "Nm", "s": "S",
-    "ms": "Ms", "h": "H", "°C": "DegC", "kHz": "KHz", "Ohm": "Ohm",
+    "ms": "Ms", "h": "H", "°C": "DegC", "kHz": "KHz", "Ohm": "Ohm", "kWh": "KWh",
 }  # fmt: skip
 """How a unit ends the name of a scale's function."""
 

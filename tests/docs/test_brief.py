@@ -59,6 +59,11 @@ ANSWERS = {
         "not known", "b1-01 = 2, b1-02 = 2", "(H5-04 1 = Emergency stop) the motor stops quickly",
         "no command", "42 codes", "2500 in 0001H",
     ),
+    "V20": (
+        "pin 6, P+; - (D0, A of the standard) on pin 7, N-", "P0700 = 5, P1000 = 5, P2023 = 2",
+        "with 0 the motor runs on, otherwise the drive trips",
+        RISING, "13 codes", "8192 in 40101",
+    ),
 }  # fmt: skip
 """Words of each answer: wire, keypad, cable, reset, fault, speed."""
 every_family = pytest.mark.parametrize("family", FAMILIES)

@@ -175,9 +175,29 @@ C104 | - | - | - | -
 C105 | - | - | - | -
 """
 CHF = "P0.04 | - | - | - | -"
+V20 = """
+P0010 | - | 0 | - | -
+P0970 | - | - | 1=user 21=factory | -
+P0003 | - | 1 | - | -
+P0700 | - | 1 | 1=panel 2=terminals 5=rs485 | -
+P1000 | - | 1 | 1=potentiometer 5=rs485 | -
+P2000 | - | - | - | 0.01 Hz
+P2010 | - | 8 (07/2012) or 6 (09/2014) | 6=9600 7=19200 8=38400 12=115200 | -
+P2014 | - | 0 (07/2012) or 2000 (09/2014) | - | 1 ms
+P2021 | - | 1 | 1 to 247 | -
+P2022 | - | 1000 | 0 to 10000 | -
+P2023 | - | 1 | 1=uss 2=modbus | -
+P2034 | - | 2 | 0=none 1=odd 2=even | -
+P2035 | - | 1 | 1=one 2=two | -
+P1080 | - | 0.00 | - | Hz
+P1082 | - | 50.00 | - | Hz
+P1120 | - | 10.00 s | - | 0.01 s
+P1121 | - | 10.00 s | - | 0.01 s
+"""
+"""SINAMICS V20, 07/2012, page 111, and 10/2019, page 179; what a plant and a program say of 09/2014."""
 TYPED = {
     "GD200A": GD200A, "PF525": PF525, "PF4": PF4, "PF40P": PF40P, "ATV312": ATV312, "SN300G5": SN300G5, "MX2": MX2,
-    "JSCC": JSCC, "PF4M": PF4M, "PF400": PF400, "CHF": CHF,
+    "JSCC": JSCC, "PF4M": PF4M, "PF400": PF400, "CHF": CHF, "V20": V20,
 }  # fmt: skip
 
 

@@ -44,6 +44,8 @@ RIGHT = {
         ("coast_stop", "Enable operation"), ("coast_stop", "Reverse"), ("coast_stop", "Fault reset"),
         ("fault_reset", "Fault reset"),
     },
+    # all other bits are 0: where the word counts (bit 10), OFF2 is active
+    "V20": {("coast_stop", "Control via PLC")},
     "MX2": {("run_forward", "Run"), ("run_reverse", "Run"), ("stop", "Stop"), ("fault_reset", "Trip reset"),
             ("fault_reset", "Stop")},  # the coil of the reset is written before
     "SN300G5": {

@@ -24,6 +24,8 @@ PINS = {
     "PF4": "4 positive, 5 negative, I/O terminal 04 common",
     "PF4M": "4 positive, 5 negative, I/O terminal 04 common",
     "PF40P": "4 positive, 5 negative, I/O terminal 04 common",
+    # A5E03728167, page 25: 5 0V, overall reference potential for RS485; 6 P+, RS485 P+; 7 N-, RS485 N-
+    "V20": "5 common, 6 positive, 7 negative",
 }
 LABELS = {
     "4": "D1 Modbus signal", "5": "D0 Modbus signal", "6": "Not connected", "7": "VP", "8": "Common Modbus signal",

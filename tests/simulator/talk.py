@@ -58,11 +58,13 @@ class Talk:
             self.put(write)
 
     def hertz(self, hz: float) -> None:
-        """The speed reference, on the map's scale, or of a drive whose scale is 0.01 Hz or 0.01 % of 50 Hz."""
+        """The speed reference, on the map's scale, or of a drive whose scale is 0.01 Hz, or whose 100 % is 50 Hz."""
         reference = self.map.operation.reference
         row = self.map.register_at(reference.register)
         if reference.means == "percent_of_maximum":
             hz *= 2
+        elif reference.full_scale:
+            hz *= reference.full_scale / 5000
         elif row and row.scale:
             hz *= 0.01 / float(row.scale.factor)
         if row and row.words:
@@ -96,6 +98,7 @@ PREPARED = {
     "CHF read_ascii_request": (Habits(), {4: 2}),
     "GD200A read_rtu_request": (Habits(), {4: 5000}),
     "GD200A read_ascii_request": (Habits(), {4: 5000}),
+    "V20 maximum_request": (Habits(), {15: 5000}),
 }
 """What the drives of the manuals' examples had in their registers."""
 

@@ -9,13 +9,15 @@ from driveblocks.maps.model import Frame
 
 STATUS = sisters({
     "ATV312": 0x0C86, "MX2": 0x2000E, "SN300G5": 0x0010, "JSCC": 0x2001, "CHF": 0x1001, "GD200A": 0x2100, "PF4": 0x2100,
+    "V20": 0x006D,
 })  # fmt: skip
 FREQUENCY = sisters({
     "ATV312": 0x0C82, "MX2": 0x1001, "SN300G5": 0x0021, "JSCC": 0x2000, "CHF": 0x3000, "GD200A": 0x3000, "PF4": 0x2103,
+    "V20": 0x0017,
 })  # fmt: skip
 COUNTS_PER_HZ = sisters({
     "ATV312": 10, "MX2": 100, "SN300G5": 100, "JSCC": 10, "CHF": 100, "GD200A": 100, "PF4": 10, "PF400": 100,
-    "PF525": 100,
+    "PF525": 100, "V20": 100,
 })  # fmt: skip
 """0.01 Hz by 000FH bit 0; 0.1 Hz by JSCC's example and PF4's words; CHF's manual has none, so that of `Habits`."""
 WORDS = sisters(
@@ -41,18 +43,30 @@ WORDS = sisters(
         },
         # coil 000FH: in operation
         "MX2": {"stands": 0, "ramps": 1, "runs": 1, "reverse": 1, "fault": 0, "warning": 0},
+        # bit 2 operation enabled, 3 fault, 7 alarm, 8 deviation in tolerance, 9 master control requested, E clockwise
+        "V20": {
+            "stands": 0x0200,
+            "ramps": 0x4204,
+            "runs": 0x4304,
+            "reverse": 0x0304,
+            "fault": 0x0208,
+            "warning": 0x0280,
+        },
         # bit 6 is not used
         "PF525": {"stands": 0x401, "ramps": 0x40B, "runs": 0x50B, "reverse": 0x503, "fault": 0x480, "warning": 0x401},
     }
 )
+CHART = {"V20": 0x0001}
+"""Bits that follow the state chart, not the motor; they are in test_shapes.py."""
 every_family = pytest.mark.parametrize("family", sorted(MAPS))
 
 
 def assert_shows(one: Talk, family: str, what: str, hz: float) -> None:
     """Check status and output frequency, which may be signed."""
-    assert one.read(STATUS[family]) == WORDS[family][what]
+    assert one.read(STATUS[family]) & ~CHART.get(family, 0) == WORDS[family][what]
     counts = one.read(FREQUENCY[family])
-    assert min(counts, 0x10000 - counts) == round(hz * COUNTS_PER_HZ[family])
+    coarse = one.map.operation.reference.means == "fraction_of_full_scale"  # 16384 of it are 50 Hz
+    assert abs(min(counts, 0x10000 - counts) - round(hz * COUNTS_PER_HZ[family])) <= coarse
 
 
 @every_family
@@ -78,7 +92,7 @@ def test_it_starts_ramps_runs_and_stops(family: str) -> None:
     one.drive.step(1000)
     assert one.drive.mode == "ramping down"
     assert_shows(one, family, "ramps", 10)
-    one.drive.step(1000)
+    one.drive.step(1001)  # 20 Hz may be a little more in a fraction
     assert one.drive.mode == "standstill"
     assert_shows(one, family, "stands", 0)
 
@@ -87,12 +101,12 @@ def test_it_starts_ramps_runs_and_stops(family: str) -> None:
 def test_it_runs_in_reverse_and_a_change_of_direction_goes_through_zero(family: str) -> None:
     one = talk(family).at(30, "run_reverse")
     assert_shows(one, family, "reverse", 30)
-    assert one.drive.hertz == -30
+    assert round(one.drive.hertz, 2) == -30
     one.command("run_forward")
     one.drive.step(2000)
-    assert one.drive.hertz == -10
+    assert round(one.drive.hertz, 2) == -10
     one.drive.step(2000)
-    assert one.drive.hertz == 10
+    assert round(one.drive.hertz, 2) == 10
 
 
 @every_family
@@ -101,7 +115,7 @@ def test_a_fault_lets_the_motor_coast_and_is_reset_at_standstill_when_its_cause_
     one.drive.trip(2)
     assert one.drive.mode == "fault"
     assert_shows(one, family, "fault", 0)
-    assert one.drive.hertz == 30
+    assert round(one.drive.hertz, 2) == 30
     one.drive.reset()
     one.drive.clear_cause()
     one.drive.reset()
@@ -129,6 +143,7 @@ def test_the_code_of_a_fault_is_shown_where_the_map_says(family: str) -> None:
             "GD200A": (0x2102, 18),
             "MX2": (0x0011, 18),
             "PF4": (0x2101, 18),
+            "V20": (0x0036, 18),
         }
     )[family]
     assert one.read(where[0]) == where[1]
@@ -178,7 +193,7 @@ def test_chf_jogs_until_its_jog_stop_and_coasts() -> None:
     one.at(30)
     one.command("jog_stop")
     one.drive.step(1000)
-    assert one.drive.hertz == 30
+    assert round(one.drive.hertz, 2) == 30
     one.command("coast_stop")
     one.drive.step(1000)
     assert one.drive.mode == "coasting"

@@ -65,7 +65,7 @@ def _shape(shape: Shape, definitions: dict[str, Schema]) -> Schema:
 
 def _form(shape: Form) -> Schema:
     schema: Schema = {"pattern": f"^(?:{_plain(shape)})$"}
-    if shape.numeric:
+    if shape.numeric or shape in (form.ADDRESS, form.ADDRESSES):
         return {"type": ["string", "number"], **schema}
     return {"type": "string", **schema}
 

@@ -41,13 +41,16 @@ def delivered(drive: Drive) -> str:
     if own.off and off and off.factory == own.off[1]:
         return f"as delivered ({off.keypad.code} {off.delivered}) the motor runs on"
     chosen, by = setting(drive, own.chosen_by), setting(drive, own.time.setting) if own.time else None
-    does = next((_DOES[does] for value, does in own.reactions if chosen and chosen.factory == value), None)
-    if chosen is None or does is None:
+    factory = chosen.factory if chosen else None
+    does = next((_DOES[does] for value, does in own.reactions if factory == value), None)
+    if does is None:
         return f"what {chosen.keypad.code} says; how it is delivered is not known" if chosen else UNKNOWN
+    if own.off and off and off.editions:
+        return f"{off.keypad.code} as delivered {off.delivered}: with {own.off[1]} the motor runs on, otherwise {does}"
     after = (
         f"after {by.delivered} of silence ({by.keypad.code})" if by and by.default else "after a time that is not known"
     )
-    return f"as delivered ({chosen.keypad.code} {chosen.delivered}) {does} {after}"
+    return f"as delivered{f' ({chosen.keypad.code} {chosen.delivered})' if chosen else ''} {does} {after}"
 
 
 def _watchdog(drive: Drive, own: Watchdog) -> Iterator[str]:
