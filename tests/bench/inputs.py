@@ -97,6 +97,10 @@ SPECIAL: dict[str, dict[str, Pin]] = {
     "V20_CanRead": {"Address": 0x006D, "Quantity": 1},
     "V20_CanWrite": {"Address": 0x0063, "Quantity": 2},
     "V20_BitTextEn": {"Address": 0x006D},
+    "ACS355_Request": {"Address": 0x0003, "Quantity": 1},
+    "ACS355_CanRead": {"Address": 0x0003, "Quantity": 1},
+    "ACS355_CanWrite": {"Address": 0x0000, "Quantity": 2},
+    "ACS355_BitTextEn": {"Address": 0x0003},
 }
 """Block -> what is special in it: the addresses that a drive has, the frame that goes the other way."""
 

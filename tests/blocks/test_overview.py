@@ -101,6 +101,7 @@ WORST: dict[str, dict[str, Value]] = {
     "MX2_Request": {**WRITE, "Address": 0x144D, "Quantity": 5},
     "SN300G5_Request": {**WRITE, "Address": 0x0106, "Quantity": 16},
     "V20_Request": {**WRITE, "Address": 0x0000, "Quantity": 7},
+    "ACS355_Request": {**WRITE, "Address": 0x0000, "Quantity": 3},
     "SN300G5_FaultNumber": dict.fromkeys(
         (*(f"FaultContents{n}Word" for n in (1, 2, 3)), "CPFContents1Word", "CPFContents2Word"), 0xFFFF
     ),
@@ -110,7 +111,7 @@ WORST: dict[str, dict[str, Value]] = {
 
 SLACK = {
     "MB_AsciiDecode": 1, "MB_Frame": 3, "SN300G5_FaultNumber": 32, "GD200A_Request": 1, "ATV312_Request": 23,
-    "MX2_Request": 11, "V20_Request": 116,
+    "MX2_Request": 11, "V20_Request": 116, "ACS355_Request": 120,
 }  # fmt: skip
 """Turns that the stated bound has to spare: the LRC is not summed with itself; a request of a line has fewer bytes;
 bits that no fault has are masked;

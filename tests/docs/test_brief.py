@@ -15,6 +15,10 @@ PINS = "pin 4, TxRxD+; - (D0, A of the standard) on pin 5, TxRxD-"
 TRIPS = "(A105 0 = Fault) the drive trips after 5.0 s of silence (A106)"
 RISING = "a rising FaultReset"
 ANSWERS = {
+    "ACS355": (
+        "not known", "9802 = 1, 1001 = 10, 1003 = 3", "count on a motor that runs on",
+        RISING, "23 codes", "10000 in 40002",
+    ),
     "ATV312": (
         "pin 4, D1 Modbus signal; -", "LAC = L3, Fr1 = Mdb", "the motor coasts after 10.0 s",
         RISING, "31 codes", "250 in 2136H",

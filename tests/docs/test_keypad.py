@@ -195,9 +195,25 @@ P1120 | - | 10.00 s | - | 0.01 s
 P1121 | - | 10.00 s | - | 0.01 s
 """
 """SINAMICS V20, 07/2012, page 111, and 10/2019, page 179; what a plant and a program say of 09/2014."""
+ACS355 = """
+9802 | - | - | 1=standard | -
+5302 | - | 1 | 0 to 247 | -
+5303 | - | 9.6 kbit/s | - | -
+5304 | - | - | 0=8n1 1=8n2 2=8e1 3=8o1 | -
+5305 | - | 0 | 0=lim 1=dcu 2=full | -
+1001 | - | - | 10=comm | -
+1003 | - | - | 3=request | -
+1102 | - | - | 8=comm | -
+1103 | - | - | 8=comm | -
+1105 | - | - | - | -
+1604 | - | - | - | -
+3018 | - | - | - | -
+3019 | - | - | - | -
+"""
+"""ACS550-01, page 151; OM 1191, page 49; ACH550-UH, page 148."""
 TYPED = {
     "GD200A": GD200A, "PF525": PF525, "PF4": PF4, "PF40P": PF40P, "ATV312": ATV312, "SN300G5": SN300G5, "MX2": MX2,
-    "JSCC": JSCC, "PF4M": PF4M, "PF400": PF400, "CHF": CHF, "V20": V20,
+    "JSCC": JSCC, "PF4M": PF4M, "PF400": PF400, "CHF": CHF, "V20": V20, "ACS355": ACS355,
 }  # fmt: skip
 
 

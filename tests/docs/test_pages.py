@@ -115,6 +115,7 @@ def test_required_pins_are_those_without_which_nothing_starts() -> None:
         {
             "CHF": always | {"FullScaleHz"},
             "JSCC": always | {"ReferenceScale"},
+            "ACS355": always | {"FullScaleHz", "ManualChecked"},
             "ATV312": always,
             "GD200A": always | {"ManualChecked"},
             "MX2": always | {"ManualChecked"},
@@ -136,7 +137,7 @@ def test_the_page_of_a_second_hand_map_prints_the_number_that_lets_it_run() -> N
     assert f"ManualChecked := 0, (* {needed} once" in text
     assert "| **`ManualChecked`** | UINT |" in text
     asked = {family for family in FAMILIES if "ManualChecked :=" in page(family)}
-    others = {"GD200A", "MX2", "PF4", "PF40P", "PF4M", "PF525", "V20"}
+    others = {"ACS355", "GD200A", "MX2", "PF4", "PF40P", "PF4M", "PF525", "V20"}
     assert asked == others, "bits, watchdog or settings that nobody could open"
 
 
@@ -436,7 +437,10 @@ def test_the_block_of_the_example_does_what_the_picture_shows(family: str) -> No
     story.run(4000, Switch=False)
     # a drive that has just left off running is not proved to stand yet: two reads have to show it
     waits = [at for at, each in enumerate(story.columns) if at > 0 and replace(each, sends=()) == timing.Column(0)]
-    assert [each for at, each in enumerate(story.columns) if at not in waits] == drawn(timing.start_and_stop())
+    # a drive with a long path may show a run before its last write
+    early = [at for at, each in enumerate(story.columns) if each.state == 3 and each.running]
+    wanted = [each for each in drawn(timing.start_and_stop()) if not early or each.state != 4 or each.running]
+    assert [each for at, each in enumerate(story.columns) if at not in (*waits, *early)] == wanted
     story.run(6000, Switch=True)
     del story.columns[:-1]
     story.drive.trip(2)

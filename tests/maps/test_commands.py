@@ -46,6 +46,13 @@ RIGHT = {
     },
     # all other bits are 0: where the word counts (bit 10), OFF2 is active
     "V20": {("coast_stop", "Control via PLC")},
+    # all other bits are 0: OFF2 is active, or with OFF2 alone at 1 operation is inhibited
+    "ACS355": {
+        ("fault_reset", "RESET"),
+        *(("coast_stop", f"OFF{number} CONTROL") for number in (1, 2, 3)),
+        *(("coast_stop", f"RAMP {name}") for name in ("OUT ZERO", "HOLD", "IN ZERO")),
+        ("coast_stop", "INHIBIT OPERATION"), ("coast_stop", "RESET"), ("coast_stop", "REMOTE CMD"),
+    },
     "MX2": {("run_forward", "Run"), ("run_reverse", "Run"), ("stop", "Stop"), ("fault_reset", "Trip reset"),
             ("fault_reset", "Stop")},  # the coil of the reset is written before
     "SN300G5": {

@@ -1,14 +1,14 @@
-"""The maps of MX2, Altivar 312 and V20 against their manuals, typed by hand a second time."""
+"""The maps of MX2, Altivar 312, V20 and ACS355 against their manuals, typed by hand a second time."""
 
 import pytest
-from tests.maps.facts import altivar_312, mx2, v20
+from tests.maps.facts import acs355, altivar_312, mx2, v20
 from tests.shipped import drives
 
 from driveblocks.maps.model import Register
 
 pytestmark = pytest.mark.every_family
 
-MX, ATV, V20 = (drives()[prefix] for prefix in ("MX2", "ATV312", "V20"))
+MX, ATV, V20, ACS = (drives()[prefix] for prefix in ("MX2", "ATV312", "V20", "ACS355"))
 
 
 def by_id() -> dict[str, Register]:
@@ -126,3 +126,28 @@ def test_v20_line_settings_and_watchdog() -> None:
     assert watchdog.time is not None
     assert (watchdog.time.setting, int(watchdog.time.milliseconds), watchdog.fault) == v20.WATCHDOG
     assert set(watchdog.fed_by) == {99, 100}
+
+
+def test_acs355_registers_commands_and_status() -> None:
+    found = {row.address.first + 40001: row for section in ACS.sections for row in section.registers}
+    assert {number: found[number].access or "r" for number in acs355.REGISTERS} == acs355.REGISTERS
+    assert {row.id: number for number, row in found.items() if row.id} == acs355.PARAMETERS
+    said = {str(one.does): (*(step.value for step in one.first), one.value) for one in ACS.operation.commands}
+    assert said == acs355.WORDS
+    run = ACS.operation.commands[0]
+    assert tuple(step.until or step.for_ms for step in run.first) == acs355.WAITS
+    bits = {str(one.shows): one.any[0].bit for one in ACS.operation.status}
+    assert {shows: bit.first for shows, bit in bits.items() if bit} == acs355.STATUS
+    assert ACS.operation.reference.full_scale == acs355.FULL_SCALE
+
+
+def test_acs355_line_settings_refusals_and_faults() -> None:
+    needed = {one.id: one.needed.value for one in ACS.settings if one.needed and one.needed.value is not None}
+    assert needed == acs355.NEEDED
+    assert ACS.serial.baud is not None
+    assert ACS.serial.format is not None
+    assert [one.baud for one in ACS.serial.baud.codes] == acs355.RATES
+    assert {one.code: (one.parity, one.stop_bits) for one in ACS.serial.format.codes} == acs355.FORMS
+    assert [one.code for one in ACS.functions] == acs355.FUNCTIONS
+    assert [one.code for one in ACS.errors.codes] == acs355.REFUSALS
+    assert {one.code: one.name for one in ACS.faults.codes} == acs355.FAULTS

@@ -21,6 +21,7 @@ class Talk:
 
     map: Drive
     drive: SimulatedDrive
+    asked: float = 0.0
 
     def ask(self, text: str) -> str:
         """A request and its reply in hexadecimal, without checksum; empty for silence."""
@@ -52,13 +53,22 @@ class Talk:
             word &= ~(1 << bit)
         assert self.write(write.register, word) is not None
 
-    def command(self, does: str) -> None:
-        """The words of a command."""
-        for write in next(each for each in self.map.operation.commands if each.does == does).writes:
+    def command(self, does: str) -> int:
+        """The words of a command, each for its time; how long that took, ms."""
+        one = next(each for each in self.map.operation.commands if each.does == does)
+        if does.startswith("run") and any(each.negative for each in self.map.operation.commands):
+            self._refer(-self.asked if one.negative else self.asked)
+        for write in one.writes:
             self.put(write)
+            self.drive.step(getattr(write, "for_ms", None) or 0)
+        return sum(each.for_ms or 0 for each in one.first)
 
     def hertz(self, hz: float) -> None:
         """The speed reference, on the map's scale, or of a drive whose scale is 0.01 Hz, or whose 100 % is 50 Hz."""
+        self.asked = hz
+        self._refer(hz)
+
+    def _refer(self, hz: float) -> None:
         reference = self.map.operation.reference
         row = self.map.register_at(reference.register)
         if reference.means == "percent_of_maximum":

@@ -20,6 +20,7 @@ CODES = sisters({
     "ATV312": (1, 2, 3, 3, 2, None, None),  # M page 15
     "MX2": (1, 2, 3, 3, 2, None, None),  # I585 page 6-18; of 21H to 23H the simulated drive knows nothing
     "GD200A": (1, 2, 4, 4, 2, 8, None),
+    "ACS355": (1, 2, 3, 3, 3, 3, None),  # page 327: value, read-only and running are all 03
     "V20": (1, 2, 3, 3, 4, None, None),  # A5E03728167 page 111
     "PF4": (1, 2, 3, 3, 2, None, None),  # its manual has none: those of the standard
 })  # fmt: skip

@@ -29,6 +29,15 @@ def shown(drive: Drive, words: dict[int, int]) -> set[str]:
     return {each.shows for each in drive.operation.status if any(holds(one, words) for one in each.any)}
 
 
+def forced(drive: Drive, name: str | None) -> set[str]:
+    """The pins that a state of the chart itself makes TRUE: a drive may show a run before a start is at its end."""
+    state = next((one for one in drive.operation.states if one.name == name), None)
+    if state is None:
+        return set()
+    by_it = {each.shows: [one for one in each.any if one.register == state.register] for each in drive.operation.status}
+    return {shows for shows, any_ in by_it.items() if any(holds(one, {state.register: state.equals}) for one in any_)}
+
+
 WAITING = {"ATV312": {"switch_on_disabled"}}
 """The state of a drive after power-up, where its map names it."""
 
@@ -39,11 +48,12 @@ def test_each_situation_is_shown_as_it_is(name: str) -> None:
     able = {status.shows for status in drive.operation.status}
     for (situation, state), words in table(drive, Habits()).faces.items():
         wanted = {fact for fact in able if getattr(situation, fact)}
-        assert shown(drive, words) == wanted, (situation, state)
+        early = forced(drive, state)
+        assert shown(drive, words) - early == wanted - early, (situation, state)
         # the output frequency decides, too; a drive with a bit for zero speed shows it there as well
         if not situation.fault and (situation.zero_speed or "zero_speed" not in able):
             stands = all(holds(one, words) for one in drive.operation.standstill.all)
-            assert stands != situation.running, (situation, state)
+            assert stands != (situation.running or "running" in early), (situation, state)
         waits = not (state or situation.fault or situation.running)
         here = {state} - {None} or (WAITING.get(name, set()) if waits else set())
         assert {one.name for one in drive.operation.states if holds(one, words)} == here
