@@ -164,8 +164,14 @@ def test_a_read_that_has_not_waited_may_have_got_the_reply_before(first: bool, w
     assert (block["Track.WaitMs"], block["Track.LateMs"]) == (waits, waits or 5)
 
 
-@pytest.mark.parametrize(("back", "left"), [(True, 0), (False, 4)])
-def test_a_block_that_is_back_sends_its_own_stop_to_a_drive_that_refuses_the_lines(back: bool, left: int) -> None:
-    """The two were refused in turn for good; the block never learned that, and no standstill ended them."""
+@pytest.mark.parametrize(
+    ("back", "forced", "lost", "left"),
+    [(True, 4, False, 0), (False, 4, False, 4), (True, 2, True, 0), (True, 2, False, 2), (False, 2, True, 2)],
+)
+def test_a_block_that_is_back_sends_its_own_stop_to_a_drive_that_refuses_the_lines(
+    back: bool, forced: int, lost: bool, left: int
+) -> None:
+    """The line's were refused for good; the block never learned that, and no standstill ended them."""
     pins = {"Number": 36, "Answered": 32, "Tried": 34, "StopAgain": True, "HasCode": True, "BlockIsBack": back}
-    assert called(part("MB_Stop", Passed=10, Online=True, **pins, Track__Forced=4))["Track.Forced"] == left
+    track = {"Track__Forced": forced, "Track__Lost": lost, "Track__PendingMs": 500}
+    assert called(part("MB_Stop", Passed=10, Online=True, **pins, **track))["Track.Forced"] == left

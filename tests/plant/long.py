@@ -8,7 +8,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-from tests.plant.bench import Bench
+from tests.plant.bench import Bench, loaded
 from tests.plant.draw import draw
 
 from driveblocks.maps.problem import Refused
@@ -65,6 +65,7 @@ def main() -> int:
                 plant = judged(path).plant
                 if not words.only_check:
                     turned(plant)
+                    loaded.cache_clear()  # a program is not seen twice
             except (Refused, AssertionError) as error:
                 bad += 1
                 print(f"seed {seed}: {error}", flush=True)
