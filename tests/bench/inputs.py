@@ -3,6 +3,8 @@
 A program reads ten registers of unit 1 by function 03H and gets its reply; the drive runs forward without a fault.
 """
 
+from tests.shipped import drives
+
 from driveblocks.reference.checksum import crc16
 from structured_text.language.tree import Function, FunctionBlock, VarDecl, VarKind
 
@@ -93,14 +95,6 @@ SPECIAL: dict[str, dict[str, Pin]] = {
     "SN300G5_Request": {"Address": 0x0020},
     "SN300G5_CanRead": {"Address": 0x0020},
     "SN300G5_CanWrite": {"Address": 0x0001, "Quantity": 1},
-    "V20_Request": {"Address": 0x006D, "Quantity": 1},
-    "V20_CanRead": {"Address": 0x006D, "Quantity": 1},
-    "V20_CanWrite": {"Address": 0x0063, "Quantity": 2},
-    "V20_BitTextEn": {"Address": 0x006D},
-    "ACS355_Request": {"Address": 0x0003, "Quantity": 1},
-    "ACS355_CanRead": {"Address": 0x0003, "Quantity": 1},
-    "ACS355_CanWrite": {"Address": 0x0000, "Quantity": 2},
-    "ACS355_BitTextEn": {"Address": 0x0003},
 }
 """Block -> what is special in it: the addresses that a drive has, the frame that goes the other way."""
 
@@ -117,5 +111,15 @@ def pins(block: Function | FunctionBlock) -> dict[str, Pin]:
 
 
 def _value(block: str, variable: VarDecl) -> Pin:
-    special = SPECIAL.get(block, {})
+    special = SPECIAL.get(block) or _of_drive(block)
     return special.get(variable.name, USUAL.get(variable.name, 0))
+
+
+def _of_drive(block: str) -> dict[str, Pin]:
+    """Of a drive block that is not listed: its status word for what reads, its command word for what writes."""
+    prefix, _, kind = block.partition("_")
+    if prefix not in drives() or not kind.startswith(("Request", "Can", "BitText", "ValueText")):
+        return {}
+    operation = drives()[prefix].operation
+    register = operation.commands[0].register if kind == "CanWrite" else operation.status[0].any[0].register
+    return {"Address": register, "Quantity": 1}

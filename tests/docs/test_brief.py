@@ -3,6 +3,7 @@
 import re
 
 import pytest
+from tests import families
 from tests.docs.test_pages import FAMILIES, FOLDER, page
 from tests.shipped import drives
 
@@ -11,64 +12,7 @@ from driveblocks.maps.view import markdown
 
 TOP = 30
 """Lines of a page that are on its first screen."""
-PINS = "pin 4, TxRxD+; - (D0, A of the standard) on pin 5, TxRxD-"
-TRIPS = "(A105 0 = Fault) the drive trips after 5.0 s of silence (A106)"
-RISING = "a rising FaultReset"
-ANSWERS = {
-    "ACS355": (
-        "not known", "9802 = 1, 1001 = 10, 1003 = 3", "count on a motor that runs on",
-        RISING, "23 codes", "10000 in 40002",
-    ),
-    "ATV312": (
-        "pin 4, D1 Modbus signal; -", "LAC = L3, Fr1 = Mdb", "the motor coasts after 10.0 s",
-        RISING, "31 codes", "250 in 2136H",
-    ),
-    "CHF": (
-        "not known", "P0.04", "count on a motor that runs on",
-        RISING, "no list", "5000 in 2000H, where P0.04 is 50 Hz",
-    ),
-    "GD200A": (
-        "485+, A (+)", "P00.01 = 2", "(P14.04 0.0 s) the motor runs on",
-        RISING, "31 codes", "2500 in 2001H",
-    ),
-    "JSCC": (
-        "not known", "F0.04 = 4", "count on a motor that runs on",
-        "no command for it over the bus", "12 codes", "not known for 1001H",
-    ),
-    "MX2": (
-        "on SP; - (D0, A of the standard) on SN", "A001 = 03, A002 = 03", "C076",
-        RISING, "51 codes", "2500 in 0001H",
-    ),
-    "PF4": (
-        PINS, "P036 = 5, P038 = 5", TRIPS,
-        RISING, "24 codes", "250 in 2001H",
-    ),
-    "PF400": (
-        "not known", "P036 = 5, P038 = 5", "count on a motor that runs on",
-        RISING, "27 codes", "2500 in 2001H",
-    ),
-    "PF40P": (
-        PINS, "E249 = 0", TRIPS,
-        RISING, "28 codes", "2500 in 2001H",
-    ),
-    "PF4M": (
-        PINS, "P108 = 5", "C304",
-        RISING, "24 codes", "250 in 2001H",
-    ),
-    "PF525": (
-        "not known", "P046 = 3, P047 = 3", "(C125 0 = Fault) the drive trips after 5.0 s",
-        RISING, "47 codes", "2500 in 2001H",
-    ),
-    "SN300G5": (
-        "not known", "b1-01 = 2, b1-02 = 2", "(H5-04 1 = Emergency stop) the motor stops quickly",
-        "no command", "42 codes", "2500 in 0001H",
-    ),
-    "V20": (
-        "pin 6, P+; - (D0, A of the standard) on pin 7, N-", "P0700 = 5, P1000 = 5, P2023 = 2",
-        "with 0 the motor runs on, otherwise the drive trips",
-        RISING, "13 codes", "8192 in 40101",
-    ),
-}  # fmt: skip
+ANSWERS = families.own("BRIEF")
 """Words of each answer: wire, keypad, cable, reset, fault, speed."""
 every_family = pytest.mark.parametrize("family", FAMILIES)
 

@@ -8,10 +8,11 @@ from typing import Any
 from xml.etree import ElementTree as ET
 
 import pytest
+from tests import families
 from tests.blocks.library import BLOCKS, built, sources
 from tests.examples.port import Port
 from tests.shapes import shapes
-from tests.shipped import drives, sisters
+from tests.shipped import drives
 
 from driveblocks.bench.simulator.drive import SimulatedDrive
 from driveblocks.docs import timing
@@ -111,20 +112,7 @@ def test_the_page_says_what_a_family_needs_and_shows_of_both_structures() -> Non
 def test_required_pins_are_those_without_which_nothing_starts() -> None:
     always = {"MaximumHz", "Address", "StopWithinMs", "Slot"}
     bold = {family: set(re.findall(r"^\| \*\*`(\w+)`", page(family), re.MULTILINE)) for family in FAMILIES}
-    assert bold == sisters(
-        {
-            "CHF": always | {"FullScaleHz"},
-            "JSCC": always | {"ReferenceScale"},
-            "ACS355": always | {"FullScaleHz", "ManualChecked"},
-            "ATV312": always,
-            "GD200A": always | {"ManualChecked"},
-            "MX2": always | {"ManualChecked"},
-            "PF4": always | {"ManualChecked"},
-            "PF400": always,
-            "SN300G5": always,
-            "V20": always | {"FullScaleHz", "ManualChecked"},
-        }
-    )
+    assert bold == {family: always | more for family, more in families.said("PINS").items()}
 
 
 def test_the_page_of_a_second_hand_map_prints_the_number_that_lets_it_run() -> None:
@@ -137,7 +125,7 @@ def test_the_page_of_a_second_hand_map_prints_the_number_that_lets_it_run() -> N
     assert f"ManualChecked := 0, (* {needed} once" in text
     assert "| **`ManualChecked`** | UINT |" in text
     asked = {family for family in FAMILIES if "ManualChecked :=" in page(family)}
-    others = {"ACS355", "GD200A", "MX2", "PF4", "PF40P", "PF4M", "PF525", "V20"}
+    others = {family for family, pins in families.said("PINS").items() if "ManualChecked" in pins}
     assert asked == others, "bits, watchdog or settings that nobody could open"
 
 
@@ -270,7 +258,7 @@ def test_what_the_manual_leaves_open_is_at_the_top_with_its_count(family: str) -
     count = len(re.findall(r"^\| (?!---|the manual does)", rows_, re.MULTILINE))
     assert f"**{count} things**" in top
     assert text.index("Find out before the first start") < text.index("## In this order")
-    assert "terminals" in top or family in ("ATV312", "V20"), "whose line is connected as their manuals say"
+    assert "terminals" in top or families.own("WIRED").get(family), "whose line is connected as their manuals say"
     assert all(f"- {each.what}" in top for each in drive.absent if "serial" in each.about)
     keypad = text.partition("\n## Keypad and wiring\n")[2].partition("\n## ")[0]
     assert "(#find-out-before-the-first-start)" in keypad

@@ -6,7 +6,7 @@ from itertools import combinations
 from pathlib import Path
 
 import pytest
-from tests.shipped import sisters
+from tests import families
 
 from driveblocks.maps import check, load
 from driveblocks.maps.form import Span
@@ -22,43 +22,7 @@ PATHS = [
     *sorted((ROOT / "tests/blocks/fourth_drive").glob("*.yaml")),
     ROOT / "tests/maps/example.yaml",
 ]
-RIGHT = {
-    "CHF": {
-        ("run_forward", "Run forward"), ("run_reverse", "Run reverse"), ("jog_forward", "Jog forward"),
-        ("jog_reverse", "Jog reverse"), ("stop", "Stop"), ("coast_stop", "Coast to stop (emergency stop)"),
-        ("fault_reset", "Fault reset"), ("jog_stop", "Jog stop"),
-    },
-    "JSCC": {("run_forward", "Run forward"), ("run_reverse", "Run reverse"), ("stop", "Stop")},
-    "GD200A": {
-        ("run_forward", "Run forward"), ("run_reverse", "Run reverse"), ("jog_forward", "Jog forward"),
-        ("jog_reverse", "Jog reverse"), ("stop", "Stop"), ("coast_stop", "Coast to stop"),
-        ("fault_reset", "Fault reset"), ("jog_stop", "Jog stop"),
-    },
-    "PF4": {
-        ("stop", "Stop"), ("fault_reset", "Clear faults"),
-    },
-    # all other bits are 0: without voltage (bit 1) the motor coasts, with it alone it stops quickly
-    "ATV312": {
-        ("quick_stop", "Enable voltage"), ("coast_stop", "No quick stop"), ("coast_stop", "Stop command"),
-        ("coast_stop", "Injection stop"), ("coast_stop", "Fast stop"), ("coast_stop", "Switch on"),
-        ("coast_stop", "Enable operation"), ("coast_stop", "Reverse"), ("coast_stop", "Fault reset"),
-        ("fault_reset", "Fault reset"),
-    },
-    # all other bits are 0: where the word counts (bit 10), OFF2 is active
-    "V20": {("coast_stop", "Control via PLC")},
-    # all other bits are 0: OFF2 is active, or with OFF2 alone at 1 operation is inhibited
-    "ACS355": {
-        ("fault_reset", "RESET"),
-        *(("coast_stop", f"OFF{number} CONTROL") for number in (1, 2, 3)),
-        *(("coast_stop", f"RAMP {name}") for name in ("OUT ZERO", "HOLD", "IN ZERO")),
-        ("coast_stop", "INHIBIT OPERATION"), ("coast_stop", "RESET"), ("coast_stop", "REMOTE CMD"),
-    },
-    "MX2": {("run_forward", "Run"), ("run_reverse", "Run"), ("stop", "Stop"), ("fault_reset", "Trip reset"),
-            ("fault_reset", "Stop")},  # the coil of the reset is written before
-    "SN300G5": {
-        ("run_forward", "Run forward"), ("run_reverse", "Run reverse"),
-        *(("stop", f"External terminal {number} closed") for number in range(3, 9)),
-    },
+RIGHT = families.said("ALIKE") | {
     "NW7": {
         ("run_forward", "Turn"), ("jog_forward", "Creep"), ("stop", "Ramp down"), ("coast_stop", "Let go"),
         ("quick_stop", "Emergency ramp"), ("fault_reset", "Clear"), ("jog_stop", "End of creep"),
@@ -141,7 +105,7 @@ def test_only_the_value_that_the_table_calls_so_fits_a_command(drive: Drive) -> 
             word.check(_with(drive, other), {other.does}, report)
             if not report.problems:
                 fits.add((command.does, name))
-    assert fits == sisters(RIGHT)[drive.prefix]
+    assert fits == RIGHT[drive.prefix]
 
 
 def _everything(drive: Drive, command: Command) -> Iterator[tuple[str, Command]]:

@@ -4,7 +4,7 @@ import re
 
 import pytest
 from click.testing import CliRunner
-from tests import shipped
+from tests import families, shipped
 from tests.maps.test_base import BASE
 
 from driveblocks.cli import app
@@ -13,30 +13,11 @@ from driveblocks.maps.load import loads
 from driveblocks.maps.revision import checked, revision
 from driveblocks.meaning.plug import plug
 
-PINS = {
-    # BBV52816, page 8, pin out of the ATV312 RJ45 connector; D1 and D0 after pages 10 and 19
-    "ATV312": "1 reserved, 2 reserved, 3 reserved, 4 positive, 5 negative, 6 unconnected, 7 supply, 8 common",
-    # Goodrive200A, 9.3.1: A (+) and B (-), "485+ on the terminal board corresponds to A and 485- to B"
-    "GD200A": "485+ positive, 485- negative",
-    # Starkest's library, Hitachi WJ200: SP (+), SN (-)
-    "MX2": "SP positive, SN negative",
-    # Starkest's library, PowerFlex 4/40/4M: pins 4 and 5, TxRxD+, TxRxD-; common at I/O terminal 04
-    "PF4": "4 positive, 5 negative, I/O terminal 04 common",
-    "PF4M": "4 positive, 5 negative, I/O terminal 04 common",
-    "PF40P": "4 positive, 5 negative, I/O terminal 04 common",
-    # A5E03728167, page 25: 5 0V, overall reference potential for RS485; 6 P+, RS485 P+; 7 N-, RS485 N-
-    "V20": "5 common, 6 positive, 7 negative",
-}
+PINS, TERMINATION = families.own("PLUG"), families.own("TERMINATION")
 LABELS = {
     "4": "D1 Modbus signal", "5": "D0 Modbus signal", "6": "Not connected", "7": "VP", "8": "Common Modbus signal",
 } | dict.fromkeys("123", "CANopen signal reserved")  # fmt: skip
 """BBV52816, page 8."""
-TERMINATION = {
-    "ATV312": ("120 ohm 0.25 W", "1 nF 10 V"), "GD200A": ("120 ohm",), "MX2": ("200 ohm", "DIP switch"),
-    "PF4": ("120 ohm", "each end"), "PF4M": ("120 ohm", "each end"), "PF40P": ("120 ohm", "each end"),
-    "PF400": ("each end",), "PF525": ("120 ohm", "AK-U0-RJ45-TB2P"),
-}  # fmt: skip
-"""BBV52816, page 10; Goodrive200A, 9.3.1; 22C-UM001I, page E-2; Starkest's library for the others."""
 
 
 def test_every_pin_is_as_it_was_read() -> None:

@@ -3,7 +3,7 @@
 from decimal import Decimal
 
 import pytest
-from tests.shipped import sisters
+from tests import families
 from tests.simulator.talk import MAPS, talk
 
 from driveblocks.bench.simulator.drive import SimulatedDrive
@@ -12,18 +12,7 @@ from driveblocks.bench.simulator.refusal import codes
 from driveblocks.maps import catalog
 from driveblocks.maps.load import load
 
-CODES = sisters({
-    # read in the manuals' tables of error codes; JSCC's has no numbers, those of the standard stand beside it
-    "SN300G5": (0x01, 0x02, 0x03, 0x21, 0x22, 0x22, 0x24),
-    "JSCC": (1, 2, 3, 3, 2, None, 6),
-    "CHF": (2, 4, 5, 5, 4, None, 8),
-    "ATV312": (1, 2, 3, 3, 2, None, None),  # M page 15
-    "MX2": (1, 2, 3, 3, 2, None, None),  # I585 page 6-18; of 21H to 23H the simulated drive knows nothing
-    "GD200A": (1, 2, 4, 4, 2, 8, None),
-    "ACS355": (1, 2, 3, 3, 3, 3, None),  # page 327: value, read-only and running are all 03
-    "V20": (1, 2, 3, 3, 4, None, None),  # A5E03728167 page 111
-    "PF4": (1, 2, 3, 3, 2, None, None),  # its manual has none: those of the standard
-})  # fmt: skip
+CODES = families.said("CODES")
 
 
 @pytest.mark.parametrize("family", sorted(MAPS))

@@ -1,72 +1,16 @@
 """The shipped families: states and ramps, words typed by hand from the manuals' tables, frames as printed."""
 
 import pytest
-from tests.shipped import sisters
+from tests import families
 from tests.simulator.talk import MAPS, Talk, body, pairs, prepared, talk
 
 from driveblocks.bench.simulator.habits import Habits
 from driveblocks.maps.model import Frame
 
-STATUS = sisters({
-    "ATV312": 0x0C86, "MX2": 0x2000E, "SN300G5": 0x0010, "JSCC": 0x2001, "CHF": 0x1001, "GD200A": 0x2100, "PF4": 0x2100,
-    "V20": 0x006D, "ACS355": 0x0003,
-})  # fmt: skip
-FREQUENCY = sisters({
-    "ATV312": 0x0C82, "MX2": 0x1001, "SN300G5": 0x0021, "JSCC": 0x2000, "CHF": 0x3000, "GD200A": 0x3000, "PF4": 0x2103,
-    "V20": 0x0017, "ACS355": 0x0066,
-})  # fmt: skip
-COUNTS_PER_HZ = sisters({
-    "ATV312": 10, "MX2": 100, "SN300G5": 100, "JSCC": 10, "CHF": 100, "GD200A": 100, "PF4": 10, "PF400": 100,
-    "PF525": 100, "V20": 100, "ACS355": 100,
-})  # fmt: skip
+STATUS, FREQUENCY, COUNTS_PER_HZ = (families.said(name) for name in ("STATUS", "FREQUENCY", "COUNTS_PER_HZ"))
 """0.01 Hz by 000FH bit 0; 0.1 Hz by JSCC's example and PF4's words; CHF's manual has none, so that of `Habits`."""
-WORDS = sisters(
-    {
-        # bit 0 running, 1 zero speed, 2 reverse, 4 speed agree, 5 ready, 6 minor fault, 7 major fault
-        "SN300G5": {"stands": 0x22, "ramps": 0x21, "runs": 0x31, "reverse": 0x35, "fault": 0x82, "warning": 0x62},
-        # 1 forward, 2 reverse, 4 stopped, 8 fault
-        "JSCC": {"stands": 4, "ramps": 1, "runs": 1, "reverse": 2, "fault": 8, "warning": 4},
-        # 1 forward, 2 reverse, 3 standby, 4 fault
-        "CHF": {"stands": 3, "ramps": 1, "runs": 1, "reverse": 2, "fault": 4, "warning": 3},
-        # 1 forward, 2 reverse, 3 stopped, 4 fault
-        "GD200A": {"stands": 3, "ramps": 1, "runs": 1, "reverse": 2, "fault": 4, "warning": 3},
-        # bit 0 ready, 1 active, 3 rotating forward, 6 alarm, 7 faulted, 8 at reference, A commanded by comm
-        "PF4": {"stands": 0x401, "ramps": 0x40B, "runs": 0x50B, "reverse": 0x503, "fault": 0x480, "warning": 0x441},
-        # bit 4 motor running, bits D and E controlled via Modbus; its state word, 0C81H, is in test_shapes.py
-        "ATV312": {
-            "stands": 0x4000,
-            "ramps": 0x4010,
-            "runs": 0x4010,
-            "reverse": 0x4010,
-            "fault": 0x4000,
-            "warning": 0x4000,
-        },
-        # coil 000FH: in operation
-        "MX2": {"stands": 0, "ramps": 1, "runs": 1, "reverse": 1, "fault": 0, "warning": 0},
-        # bit 2 operation enabled, 3 fault, 7 alarm, 8 deviation in tolerance, 9 master control requested, E clockwise
-        "V20": {
-            "stands": 0x0200,
-            "ramps": 0x4204,
-            "runs": 0x4304,
-            "reverse": 0x0304,
-            "fault": 0x0208,
-            "warning": 0x0280,
-        },
-        # bit 2 operation enabled, 3 tripped, 7 alarm, 8 at setpoint, 9 remote, C external run enable; none of reverse
-        "ACS355": {
-            "stands": 0x1200,
-            "ramps": 0x1204,
-            "runs": 0x1304,
-            "reverse": 0x1304,
-            "fault": 0x0208,
-            "warning": 0x1280,
-        },
-        # bit 6 is not used
-        "PF525": {"stands": 0x401, "ramps": 0x40B, "runs": 0x50B, "reverse": 0x503, "fault": 0x480, "warning": 0x401},
-    }
-)
-CHART = {"V20": 0x0001, "ACS355": 0x0003}
-"""Bits that follow the state chart, not the motor; they are in test_shapes.py."""
+WORDS, FAULT, CHART = (families.said(name) for name in ("FACES", "FAULT", "CHART"))
+"""Bits that follow the state chart, not the motor, are in test_shapes.py."""
 every_family = pytest.mark.parametrize("family", sorted(MAPS))
 
 
@@ -142,19 +86,7 @@ def test_the_code_of_a_fault_is_shown_where_the_map_says(family: str) -> None:
     one = talk(family)
     one.drive.trip(18)
     # SN300G5: 12H is EF4, bit 1 of 0015H; the others show the number
-    where = sisters(
-        {
-            "ATV312": (0x1BD1, 18),
-            "SN300G5": (0x0015, 2),
-            "JSCC": (0x3000, 18),
-            "CHF": (0x5000, 18),
-            "GD200A": (0x2102, 18),
-            "MX2": (0x0011, 18),
-            "PF4": (0x2101, 18),
-            "V20": (0x0036, 18),
-            "ACS355": (0x0190, 18),
-        }
-    )[family]
+    where = FAULT[family]
     assert one.read(where[0]) == where[1]
     one.drive.clear_cause()
     one.drive.reset()
