@@ -1,7 +1,7 @@
 """What documents say of PowerFlex 400, typed from them by hand; no map was read for it."""
 
 COUNTS_PER_HZ = 100
-PINS = set()
+PINS: set[str] = set()
 BRIEF = (
     "not known",
     "P036 = 5, P038 = 5",

@@ -9,7 +9,7 @@ FAULT = (0x1BD1, 18)
 CODES = (1, 2, 3, 3, 2, None, None)
 """M page 15."""
 PASSING = (3, 4, 3)
-PINS = set()
+PINS: set[str] = set()
 BRIEF = (
     "pin 4, D1 Modbus signal; -",
     "LAC = L3, Fr1 = Mdb",

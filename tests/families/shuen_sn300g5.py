@@ -8,7 +8,7 @@ COUNTS_PER_HZ = 100
 FAULT = (0x0015, 2)
 CODES = (1, 2, 3, 33, 34, 34, 36)
 PASSING = (3, 4, 3)
-PINS = set()
+PINS: set[str] = set()
 BRIEF = (
     "not known",
     "b1-01 = 2, b1-02 = 2",

@@ -63,7 +63,7 @@ def _reference(drive: Drive) -> str:
     return " ".join([place(one.register), one.means, *scale])
 
 
-def _rates(drive: Drive) -> dict[int | None, int] | list[int]:
+def _rates(drive: Drive) -> dict[int, int] | list[int]:
     codes = drive.serial.baud.codes if drive.serial.baud else ()
     coded = {one.code: one.baud for one in codes if one.code is not None}
     return coded or [one.baud for one in codes]
@@ -86,7 +86,7 @@ def _watchdog(drive: Drive) -> tuple[str | None, int, int | None] | None:
 
 SAYS: dict[str, Callable[[Drive], object]] = {
     "COMMANDS": lambda one: {
-        str(each.does): " ".join(map(written, (*each.first, each))) for each in one.operation.commands
+        str(each.does): " ".join(written(step) for step in (*each.first, each)) for each in one.operation.commands
     },
     "WAITS": lambda one: tuple(step.until or step.for_ms for step in one.operation.commands[0].first),
     "REFERENCE": _reference,
@@ -125,12 +125,13 @@ def test_the_rows_are_those_that_were_typed(prefix: str) -> None:
 
 
 def test_forty_facts_were_typed_of_each_family_that_came_by_this_table() -> None:
-    def count(name: str, one: object) -> int:
-        return len(one.strip().splitlines()) * 4 if name == "ROWS" else len(one) if isinstance(one, dict | list) else 1
+    def count(one: object) -> int:
+        lines = one.strip().splitlines() if isinstance(one, str) else []
+        return len(one) if isinstance(one, dict | list) else 1 if len(lines) == 1 else 4 * len(lines)
 
     named = [*SAYS, "ROWS"]
     facts = {
-        prefix: sum(count(name, getattr(each, name)) for name in named if hasattr(each, name))
+        prefix: sum(count(getattr(each, name)) for name in named if hasattr(each, name))
         for prefix, each in families.modules().items()
         if hasattr(each, "ROWS")
     }
