@@ -86,7 +86,7 @@ def _watchdog(drive: Drive) -> tuple[str | None, int, int | None] | None:
 
 SAYS: dict[str, Callable[[Drive], object]] = {
     "COMMANDS": lambda one: {
-        str(each.does): " ".join(written(step) for step in (*each.first, each)) for each in one.operation.commands
+        str(each.does): " ".join([*map(written, each.first), written(each)]) for each in one.operation.commands
     },
     "WAITS": lambda one: tuple(step.until or step.for_ms for step in one.operation.commands[0].first),
     "REFERENCE": _reference,
