@@ -19,9 +19,10 @@ def holds(condition: Condition | State, words: dict[int, int]) -> bool:
     if word is None:
         return True
     if isinstance(condition, Condition) and condition.bit is not None:
-        return word >> condition.bit.first & ((1 << len(condition.bit)) - 1) == condition.equals
-    mask = 0xFFFF if condition.mask is None else condition.mask
-    return word & mask == condition.equals
+        found = word >> condition.bit.first & ((1 << len(condition.bit)) - 1) == condition.equals
+    else:
+        found = word & (0xFFFF if condition.mask is None else condition.mask) == condition.equals
+    return found != bool(getattr(condition, "differs", None))
 
 
 def shown(drive: Drive, words: dict[int, int]) -> set[str]:
