@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from tests.maps import bad
 
-from driveblocks.bench import runner
+from driveblocks.bench import runner, vector
 from driveblocks.bench.simulator.answer import answer
 from driveblocks.bench.simulator.machine import Machine
 from driveblocks.bench.unit import Unit
@@ -126,17 +126,29 @@ def test_no_read_ends_inside_a_pair() -> None:
         )
 
 
-def test_an_example_frame_proves_the_scale_of_a_pair() -> None:
-    frames = """frames:
+PAIR = """frames:
   - {id: asked, direction: request, mode: rtu, source: section 2, printed: 01 03 10 00 00 02 C0 CB, checksum: right,
      correct: 01 03 10 00 00 02 C0 CB, means: {says: reads 1000H, unit: 1, function: 03H, address: 1000H, words: 2}}
   - {id: told, direction: reply, mode: rtu, source: section 2, printed: 01 03 04 00 01 00 00 AB F3, checksum: right,
      correct: 01 03 04 00 01 00 00 AB F3, answers: asked, means: {says: it is fast, unit: 1, function: 03H, words: 2,
      byte_count: 4, values: [1, 0], quantities: [{register: 1000H, value: 655.36, unit: Hz}]}}"""
-    made = loads(MAP.replace("frames: []", frames), "x.yaml")
+"""65536 x 0.01 Hz."""
+
+
+def test_an_example_frame_proves_the_scale_of_a_pair() -> None:
+    made = loads(MAP.replace("frames: []", PAIR), "x.yaml")
     assert made.frames[1].means.quantities[0].value == Decimal("655.36")
     with pytest.raises(MapError, match="but 65536 x "):
-        loads(MAP.replace("frames: []", frames.replace("655.36", "655.35")), "x.yaml")
+        loads(MAP.replace("frames: []", PAIR.replace("655.36", "655.35")), "x.yaml")
+
+
+@pytest.mark.parametrize("low_first", [False, True], ids=["high first", "low first"])
+def test_an_example_frame_of_a_pair_is_asked_for_by_both_words(low_first: bool) -> None:
+    turned = PAIR.replace("00 01 00 00 AB F3", "00 00 00 01 3B F3").replace("[1, 0]", "[0, 1]")
+    text = (LOW_FIRST if low_first else MAP).replace("frames: []", turned if low_first else PAIR)
+    frames = next(vector.scripts(drive(text), "coils"))
+    pins = "High := Words[1], Low := Words[0]" if low_first else "High := Words[0], Low := Words[1]"
+    assert f"COI_OutputFrequencyHz({pins})" in "".join(each.text for each in frames.programs())
 
 
 # ---------------------------------------------------------------- blocks and programs

@@ -145,9 +145,12 @@ def _quantities(drive: Drive, frame: Frame) -> Iterator[Item]:
         row = drive.register_at(quantity.register)
         if row is None or row.scale is None or request.means.address is None:
             continue
-        raw = f"Words[{wire(quantity.register) - wire(request.means.address)}]"
+        at = wire(quantity.register) - wire(request.means.address)
+        low_first = row.order == "low_first"
+        halves = f"High := Words[{at + low_first}], Low := Words[{at + (not low_first)}]"
+        pins = halves if row.words else f"Raw := Words[{at}]"
         words = f"{quantity.value} {quantity.unit}"
-        yield kit.is_real(f"{scale_block(drive, row)}(Raw := {raw})", float(quantity.value), words)
+        yield kit.is_real(f"{scale_block(drive, row)}({pins})", float(quantity.value), words)
 
 
 def _table(program: Script, frame: Frame) -> None:
