@@ -20,6 +20,10 @@ def holds(condition: Condition | State, words: dict[int, int]) -> bool:
         return True
     if isinstance(condition, Condition) and condition.bit is not None:
         return word >> condition.bit.first & ((1 << len(condition.bit)) - 1) == condition.equals
+    if isinstance(condition, Condition) and condition.above is not None:
+        return word > condition.above
+    if isinstance(condition, Condition) and condition.below is not None:
+        return word < condition.below
     mask = 0xFFFF if condition.mask is None else condition.mask
     return word & mask == condition.equals
 
