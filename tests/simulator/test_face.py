@@ -18,6 +18,10 @@ def holds(condition: Condition | State, words: dict[int, int]) -> bool:
     word = words.get(condition.register)
     if word is None:
         return True
+    if isinstance(condition, Condition) and condition.above is not None:
+        return word > condition.above
+    if isinstance(condition, Condition) and condition.below is not None:
+        return word < condition.below
     if isinstance(condition, Condition) and condition.bit is not None:
         found = word >> condition.bit.first & ((1 << len(condition.bit)) - 1) == condition.equals
     else:
