@@ -1,0 +1,91 @@
+"""What pages of ACS550-02, F: ACS550-01, and of sisters say, typed from them by hand; no map was read for it."""
+
+CONTROL = "sister"
+BRIEF = (
+    "pin 29, B (Positive +); - (D0, A of the standard) on pin 30, A (Negative -)",
+    "9802 = 1, 1001 = 10, 1003 = 3, 1102 = 8, 1103 = 8, 5305 = 0, 3018 = 1",
+    "What 3018 says",
+    "a rising FaultReset",
+    "31 codes",
+    "10000 in 40002",
+)
+PLUG = "28 shield, 29 positive, 30 negative, 31 common, 32 shield"
+"""ACH550-UH, page 155: X1, 28 Screen, 29 B (Positive +), 30 A (Negative -), 31 AGND, 32 Screen."""
+TERMINATION = ("120 ohm", "both ends")
+WIRED = True
+KEYPAD = """
+9802 | - | - | 1=standard | -
+5302 | - | 1 | - | -
+5303 | - | 9.6 kbit/s | - | -
+5304 | - | 1 | 0=8n1 1=8n2 2=8e1 3=8o1 | -
+5305 | - | 0 | 0=lim 1=dcu 2=full | -
+1001 | - | - | 10=comm | -
+1003 | - | - | 3=request | -
+1102 | - | - | 8=comm | -
+1103 | - | - | 8=comm | -
+1105 | - | - | 0.0 to 500.0 Hz | 0.1 Hz
+1604 | - | - | - | -
+3018 | - | - | 0=not 1=fault 2=constant 3=last | -
+3019 | - | - | - | -
+1104 | - | 0.0 Hz | 0.0 to 500.0 Hz | 0.1 Hz
+"""
+"""F pages 151 and 187; page 223; ACH550-UH, pages 65 and 148."""
+ROWS = """
+0000 | - | rw | - | -
+0001 | - | rw | - | signed
+0002 | - | rw | - | signed
+0003 | - | r | - | -
+0004 | - | r | - | signed
+0066 | 0103 | r | - | signed
+0067 | 0104 | r | A | -
+006A | 0107 | r | V | -
+0190 | 0401 | r | - | -
+044F | 1104 | rw | Hz | -
+0450 | 1105 | rw | Hz | -
+"""
+"""Pages 223, 227 (4 and the number of the parameter), 228 and 232; ACS355 page 313: 40004."""
+COMMANDS = dict.fromkeys(
+    ("run_forward", "run_reverse"), "0000=0006 0000=0006 0000=0007 0000=000F 0000=002F 0000=006F"
+) | {
+    "stop": "0000=006E",
+    "quick_stop": "0000=006B",
+    "coast_stop": "0000=006D",
+    "fault_reset": "0000=0006 0000=0086",
+}
+"""Page 246, steps 1 to 6; ACH550-UH page 163: OFF1 ramps, OFF2 coasts, OFF3 within 2208."""
+WAITS = ("ready_to_switch_on", 100, "ready_to_operate", "operation_enabled", None)
+"""ACS355, page 319: bits 0, 1 and 2."""
+REFERENCE = "0001 fraction_of_full_scale 20000"
+"""ACH550-UH, page 207: +20000 = (par. 1105)."""
+STANDSTILL = "0003.2=0 0066=0"
+"""ACS355, page 319; page 227, 40103."""
+SHOWS = {
+    "running": "0003.2=1",
+    "at_speed": "0003&0104=0104",
+    "ready": "0003.C=1",
+    "warning": "0003.7=1",
+    "fault": "0003.3=1",
+}
+"""ACS355, page 319; bit 7 of the ACS320, page 350."""
+MEASURES = {"output_frequency": "0066", "output_current": "0067", "dc_bus_voltage": "006A"}
+NEEDED = {"9802": 1, "1001": 10, "1003": 3, "1102": 8, "1103": 8, "5305": 0, "3018": 1}
+"""F pages 209 and 187; page 223; ACH550-UH, page 148."""
+RATES = [1200, 2400, 4800, 9600, 19200, 38400, 57600, 76800]
+FORMS = {0: "8N1", 1: "8N2", 2: "8E1", 3: "8O1"}
+"""F page 151."""
+FUNCTIONS = [3, 6, 16, 23, 1, 2, 4, 5]
+"""Page 231; ACH550-UH, page 162. Those of the ACS355 come first."""
+REFUSALS = [1, 2, 3]
+"""F page 167."""
+FAULTS = {
+    1: "OVERCURRENT", 2: "DC OVERVOLT", 3: "DEV OVERTEMP", 4: "SHORT CIRC", 6: "DC UNDERVOLT", 7: "AI 1 LOSS",
+    8: "AI 2 LOSS", 9: "MOT OVERTEMP", 10: "PANEL LOSS", 11: "ID RUN FAIL", 12: "MOTOR STALL", 14: "EXT FAULT 1",
+    15: "EXT FAULT 2", 16: "EARTH FAULT", 18: "THERM FAIL", 19: "OPEX LINK", 20: "OPEX PWR", 21: "CURR MEAS",
+    22: "SUPPLY PHASE", 23: "ENCODER ERR", 24: "OVERSPEED", 26: "DRIVE ID", 28: "SERIAL 1 ERR", 27: "CONFIG FILE",
+    29: "EFB CON FILE", 30: "FORCE TRIP", 31: "EFB 1", 32: "EFB 2", 33: "EFB 3", 34: "MOTOR PHASE", 35: "OUTP WIRING",
+}  # fmt: skip
+"""Page 259 without what is reserved or obsolete; 28 of ACH550-UH, page 154; from 27 on Carrier, page 127."""
+UNIT = (1, 247, 1)
+"""F page 151: 1."""
+WATCHDOG = None
+"""No page has the count of 3019."""
