@@ -175,11 +175,22 @@ def families(files: list[File], drives: list[Drive], checked: Checked, platforms
     return render(
         "docs/Families.md.j2",
         families=rows,
+        plates=_plates(drives),
         trusted=list(trust.SHOWN),
         platforms=platforms,
         files=names,
         wide=any("Chinese" in name for name in names),
     )
+
+
+def _plates(drives: list[Drive]) -> list[dict[str, str]]:
+    """The patterns of model numbers, each with a printed one that fits."""
+    rows = [
+        {"plate": one.plate, "prefix": drive.prefix, "example": next(filter(one.plate.fits, one.printed))}
+        for drive in drives
+        for one in drive.models
+    ]
+    return sorted(rows, key=lambda row: row["plate"])
 
 
 def _turns_on(drive: Drive) -> str:
