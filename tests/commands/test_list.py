@@ -32,6 +32,14 @@ def test_the_table_fits_and_names_each_drive(shelf: Path, columns: int) -> None:
     assert row.split()[-3:] == ["27", "4", "9"]
 
 
+def test_a_map_is_listed_by_the_model_number_of_its_drive(shelf: Path) -> None:
+    models = "models: [{plate: EX1x-*, printed: [EX10-4], source: page 4}]\nmanual:"
+    text = EXAMPLE.read_text(encoding="utf-8").replace("\nmanual:", f"\n{models}", 1)
+    (shelf / "example.yaml").write_text(text, encoding="utf-8")
+    (listed,) = json.loads(CliRunner().invoke(app, ["list", "ex10 4kw/5hp", "--json"]).stdout)
+    assert (listed["drive"], [each["plate"] for each in listed["models"]]) == ("example", ["EX1x-*"])
+
+
 def test_maps_that_are_named_are_listed_alone(shelf: Path) -> None:
     own = shelf / "other" / "mine.yaml"
     own.parent.mkdir()

@@ -176,12 +176,23 @@ def test_a_renamed_register_breaks_what_uses_its_decoder(changed: Callable[[str,
     assert found.stdout.startswith("### INVT CHF series inverters, map revision ")
 
 
-def test_another_prefix_is_one_change(changed: Callable[[str, str], str]) -> None:
+def test_another_prefix_is_another_family(changed: Callable[[str, str], str]) -> None:
     found = diff("chf", changed("prefix: CHF", "prefix: CHG"), "--json")
     assert found.exit_code == 1, found.stderr
-    assert [each for each in json.loads(found.stdout) if each["kind"] == "breaks"] == [
-        {"kind": "breaks", "where": "every block and function", "what": "begins with CHF_, now with CHG_"}
-    ]
+    assert {"section": "Pins of the block", "what": "type of the instance", "old": "CHF_Drive", "new": "CHG_Drive"} in (
+        json.loads(found.stdout)
+    )
+
+
+def test_the_swap_of_a_drive_is_told_by_name_or_nameplate_as_text_and_as_a_page() -> None:
+    text, page = diff("acs355", "6SL3210-5BE17-5UV0"), diff("acs355", "v20", "--changelog")
+    assert text.exit_code == page.exit_code == 1
+    assert text.stdout.startswith("ABB ACS355 is replaced by Siemens SINAMICS V20\n")
+    assert text.stdout.endswith("blocks/docs/Swapping.md\n")
+    assert "| unit address | 5302, Station ID: 0 to 247 | P2021, Modbus address: 1 to 247 |" in page.stdout.splitlines()
+    assert "<br>P0700, Selection of command source: 5 = " in page.stdout
+    heads = [line[3:] for line in page.stdout.splitlines() if line.startswith("## ")]
+    assert all(f"\n{head}\n" in text.stdout for head in heads)
 
 
 def test_folders_of_blocks(tmp_path: Path) -> None:

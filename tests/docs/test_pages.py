@@ -18,7 +18,8 @@ from driveblocks.bench.simulator.drive import SimulatedDrive
 from driveblocks.docs import timing
 from driveblocks.docs.page import Own, documents
 from driveblocks.maps import trust
-from driveblocks.maps.model import Drive
+from driveblocks.maps.form import Plate
+from driveblocks.maps.model import Drive, Model
 from driveblocks.platforms import EXPORTS, PLATFORMS
 from driveblocks.platforms.port import first_motor
 from driveblocks.render.library import drive as library_of
@@ -107,6 +108,18 @@ def test_the_page_says_what_a_family_needs_and_shows_of_both_structures() -> Non
     assert shown["JSCC", "OutputPowerValid"] == "always FALSE"
     assert shown["SN300G5", "DcBusVoltageValid"] == "FALSE without `DcVoltageScale`"
     assert [shown[family, "CanCoastStop"] for family in ("CHF", "JSCC", "SN300G5")] == ["TRUE", "FALSE", "FALSE"]
+
+
+def test_catalogue_and_page_say_what_is_on_the_nameplate() -> None:
+    drive = drives()["JSCC"]
+    files = [*generic(LANGUAGES), *library_of("jscc", drive, LANGUAGES)]
+    assert "nameplate" not in documents(files, [drive])["docs/Families.md"].lower()
+    models = [Model(plate=Plate(one), printed=(f"{one[:-1]}7",), source="page 4") for one in ("J2-X*", "J1-A*")]
+    made = documents(files, [replace(drive, models=tuple(models))])
+    rows_ = made["docs/Families.md"].partition("\n## By nameplate\n")[2].strip().split("\n\n")[0].splitlines()[2:]
+    assert rows_ == [f"| `{one}*` | {one}7 | [`JSCC`](JSCC_Drive.md) |" for one in ("J1-A", "J2-X")]
+    assert "`driveblocks show J1-A7`" in made["docs/Families.md"]
+    assert "Nameplates: `J2-X*`, `J1-A*`.\n\n>" in made["docs/JSCC_Drive.md"]
 
 
 def test_required_pins_are_those_without_which_nothing_starts() -> None:

@@ -222,3 +222,10 @@ def test_a_mistake_in_what_is_taken_over_names_both_files(tmp_path: Path) -> Non
     assert any("unless what `without` leaves out in line 6 is to stay" in each for each in left_out)
     taken = "sections: [{id: status, registers: [{address: 2003H, id: P1.07, name: Again}]}]\n"
     assert any("id `P1.07` is taken by line 36 of acme.yaml" in each for each in wrong(write(tmp_path, taken)))
+
+
+def test_the_nameplates_of_a_sister_are_not_taken_over(tmp_path: Path) -> None:
+    models = "models: [{plate: ACME-1*, printed: [ACME-15], source: page 4}]\nmanual:"
+    base = BASE.replace("\nmanual:", f"\n{models}", 1)
+    assert [one.plate for one in loads(base, "acme.yaml").models] == ["ACME-1*"]
+    assert load(write(tmp_path, base=base)).models == ()

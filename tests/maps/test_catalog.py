@@ -6,8 +6,11 @@ import pytest
 
 from driveblocks.maps import catalog
 from driveblocks.maps.catalog import UnknownDrive
+from driveblocks.maps.load import load
 
 MAPS = {"acme_turbo100": "TURBO1", "acme_eco": "ECO", "bravo_eco2": "BRAVO"}
+
+PLATES = {"acme_turbo100": "TB1-*", "bravo_eco2": '"BE2-x4*"'}
 
 
 @pytest.fixture
@@ -16,7 +19,9 @@ def shelf(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     folder = tmp_path / "shelf"
     folder.mkdir()
     for stem, prefix in MAPS.items():
-        (folder / f"{stem}.yaml").write_text(f"# a comment\nformat: 2\nprefix: {prefix}\n", encoding="utf-8")
+        models = f"models:\n  - {{plate: {PLATES[stem]}, source: page 4}}\n" if stem in PLATES else ""
+        text = f"# plate: ECO-*\nformat: 2\nprefix: {prefix}\n{models}manual: {{plate: ECO-*}}\n"
+        (folder / f"{stem}.yaml").write_text(text, encoding="utf-8")
     monkeypatch.setattr(catalog, "folder", lambda: folder)
     here = tmp_path / "here"
     here.mkdir()
@@ -59,6 +64,41 @@ def test_a_mistyped_name_is_answered_with_the_nearest(shelf: Path, name: str, ne
 def test_a_name_like_nothing_is_answered_with_all(shelf: Path, name: str) -> None:
     with pytest.raises(UnknownDrive, match="known drives are acme_eco, acme_turbo100, bravo_eco2"):
         catalog.resolve(name)
+
+
+@pytest.mark.parametrize(
+    ("name", "stem"),
+    [
+        ("BE2-D4P0", "bravo_eco2"),
+        ("be2 d4", "bravo_eco2"),
+        ("BE2-A4P0/5P5-4", "bravo_eco2"),
+        ("TB1-5", "acme_turbo100"),
+    ],
+)
+def test_a_shipped_map_is_found_by_a_nameplate(shelf: Path, name: str, stem: str) -> None:
+    assert catalog.resolve(name) == shelf / f"{stem}.yaml"
+
+
+def test_a_name_wins_over_a_nameplate_and_a_file_over_one_with_a_stroke(shelf: Path) -> None:
+    (shelf / "tb1-5.yaml").write_text("prefix: OTHER\n", encoding="utf-8")
+    assert catalog.resolve("TB1-5") == shelf / "tb1-5.yaml"
+    Path("TB1-5").mkdir()
+    Path("TB1-5/eco").touch()
+    assert catalog.resolve("TB1-5/eco") == Path("TB1-5/eco")
+    assert catalog.resolve("TB1-5/eco2") == shelf / "acme_turbo100.yaml"
+
+
+def test_a_nameplate_of_two_maps_names_both(shelf: Path) -> None:
+    (shelf / "third.yaml").write_text("prefix: THIRD\nmodels: [{plate: TB1-5*}]\nmanual: {}\n", encoding="utf-8")
+    with pytest.raises(UnknownDrive, match="`TB1-55` fits several drives; write one of acme_turbo100, third"):
+        catalog.resolve("TB1-55")
+
+
+@pytest.mark.parametrize("path", catalog.shipped(), ids=lambda path: path.stem)
+def test_every_printed_nameplate_finds_its_shipped_map(path: Path) -> None:
+    models = load(path).models
+    assert catalog.plates(path) == tuple(one.plate for one in models)
+    assert {catalog.resolve(number) for one in models for number in one.printed if one.plate.fits(number)} <= {path}
 
 
 @pytest.mark.parametrize("name", ["./eco.yaml", "eco.yaml", "eco.YML", "folder/eco"])

@@ -46,3 +46,15 @@ def test_names_that_make_no_identifier_are_refused(tmp_path: Path, old: str, new
     with pytest.raises(MapError) as caught:
         collection.read([changed(tmp_path, old, new)])
     assert said in str(caught.value)
+
+
+def test_two_maps_of_one_nameplate_are_refused(tmp_path: Path) -> None:
+    text = EXAMPLE.read_text(encoding="utf-8")
+    for prefix, plate in (("ONE", "EX1-*"), ("TWO", "EX1-Dx4*"), ("THREE", "EX2-*")):
+        models = f"models: [{{plate: {plate}, printed: [EX1-D14, EX2-7], source: page 4}}]\nmanual:"
+        made = text.replace("prefix: EX100", f"prefix: {prefix}").replace("\nmanual:", f"\n{models}", 1)
+        (tmp_path / f"{prefix.lower()}.yaml").write_text(made, encoding="utf-8")
+    with pytest.raises(MapError) as caught:
+        collection.read(sorted(tmp_path.glob("*.yaml")))
+    (problem,) = caught.value.problems
+    assert str(problem).startswith(f"{tmp_path / 'two.yaml'}:8:18: a model number that fits EX1-Dx4* may fit EX1-* of ")

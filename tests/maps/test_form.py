@@ -44,6 +44,7 @@ TAKEN: list[tuple[Form, str, object]] = [
     (form.REFERENCE, "prose", "prose"),
     (form.REFERENCE, "bit 0015H.7", "bit 0015H.7"),
     (form.ID_FORM, "A9-99", "A9-99"),
+    *[(form.PLATE, text, text) for text in ("22F-*", "FC-051*", "CIMR-Vx*", "6SL3210-5B*", "GD200A-037G/045P-4")],
     (form.PLC_DEVICE, "D10", "D10"),
     (form.TEXT, "x", "x"),
     (form.TEXT, "two\nlines", "two\nlines"),
@@ -57,6 +58,7 @@ REFUSED: list[tuple[Form, str]] = [
     *[(form.DECIMAL, text) for text in (".5", "5.", "1e3", "0,1", "00.1", "1" * 10, "0." + "1" * 10, "NaN", "inf")],
     *[(form.BYTES, text) for text in ("0103", "01  03", "01 3", "1 03", "0a", "01 03 ", "")],
     *[(form.ADU, text) for text in ("01:03", ":0103 LF CR", ":01 03", ":0g", "01 03 CR LF", "")],
+    *[(form.PLATE, text) for text in ("*", "22*", "2xF-*", "22F*-4", "22f-*", "-22F", "22F--*", "")],
     *[(form.REGISTER_WORD, text) for text in ("3A3", "--", "--0A", "3a30", "3A300", "3A-")],
     *[(form.ID, text) for text in ("H5 01", "H5-01,H5-02", "x" * 25, "")],
     *[(form.WORD, text) for text in ("Read", "1st", "a-b", "_a", "")],
@@ -126,3 +128,33 @@ def test_chinese_is_seen(text: str) -> None:
 @pytest.mark.parametrize("text", ["Output frequency", "°C", "±10 V", "Ω", "1–2", ""])
 def test_what_is_no_chinese(text: str) -> None:
     assert not form.holds_chinese(text)
+
+
+@pytest.mark.parametrize(
+    ("plate", "number", "fits"),
+    [
+        *[("22F-*", number, True) for number in ("22F-D2P5N103", "22f d2p5n103", "22FD2P5N103", "22F")],
+        *[("22F-*", number, False) for number in ("22A-D2P5N103", "X22F-D2P5N103", "./22F", "22F_D2P5", "")],
+        *[("CIMR-Vx4*", number, True) for number in ("CIMR-VU4A0011FAA", "CIMR-VT4A0011FAA")],
+        *[("CIMR-Vx4*", number, False) for number in ("CIMR-V4", "CIMR-VU2A0011")],
+        ("GD200A-*", "GD200A-037G/045P-4", True),
+        ("3G3MX2-*", "3G3MX2-A4150-V1(Q2)", True),
+        ("ATV312HU15N4", "ATV312HU15N4S", False),
+    ],
+)
+def test_a_model_number_fits_its_pattern(plate: str, number: str, *, fits: bool) -> None:
+    assert form.Plate(plate).fits(number) == fits
+
+
+@pytest.mark.parametrize(
+    ("one", "other", "meet"),
+    [
+        *[("22F-*", other, True) for other in ("22F-*", "22F-D*", "22F", "22FD2P5N103")],
+        *[("22F-*", other, False) for other in ("22A-*", "22", "222F-*")],
+        *[("CIMR-Vx2*", other, True) for other in ("CIMR-VU*", "CIMR-VU2A")],
+        *[("CIMR-Vx2*", other, False) for other in ("CIMR-VU4*", "CIMR-V")],
+        ("ATV312H", "ATV312HU", False),
+    ],
+)
+def test_patterns_that_a_number_may_fit_both_of(one: str, other: str, *, meet: bool) -> None:
+    assert form.Plate(one).meets(form.Plate(other)) == form.Plate(other).meets(form.Plate(one)) == meet

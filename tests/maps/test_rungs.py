@@ -59,7 +59,9 @@ def test_the_catalogue_says_of_trust_what_the_rungs_say_and_no_more() -> None:
         rest | {"prefix": family, "trust": trust.shown(one), "checked": "yes" * trust.second_hand(one), "data": 0}
         for family, one in drives().items()
     ]
-    text = render("docs/Families.md.j2", families=rows, platforms=[], files=[], wide=False, trusted=list(trust.SHOWN))
+    text = render(
+        "docs/Families.md.j2", families=rows, platforms=[], files=[], plates=[], wide=False, trusted=list(trust.SHOWN)
+    )
     before, _, rest_of_it = text.partition("## How far each map can be trusted\n")
     section, _, after = rest_of_it.partition("\n## ")
     assert [line for line in (before + after).splitlines() if SAYS.search(line)] == []

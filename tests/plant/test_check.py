@@ -182,6 +182,14 @@ def test_the_hard_stop_of_a_plant_without_any_has_a_name_of_its_own(tmp_path: Pa
     assert (found.line, found.wrong) == (21, "`Hardstop` is a variable of the program itself")
 
 
+def test_a_drive_of_a_plant_may_be_named_by_its_nameplate(tmp_path: Path) -> None:
+    path = tmp_path / "works.yaml"
+    path.write_text(WORKS.replace("drive: atv312", "drive: ATV312HU15N4"), encoding="utf-8")
+    motor = load.load(path).drives["F1"]
+    assert (motor.path.stem, motor.map.prefix) == ("schneider_altivar_312", "ATV312")
+    assert (EXAMPLES.parents[1] / "vendor_maps").samefile(motor.path.parent)
+
+
 def test_how_a_line_is_spoken_on_is_as_all_its_drives_are_delivered(tmp_path: Path) -> None:
     path = tmp_path / "works.yaml"
     path.write_text(WORKS, encoding="utf-8")

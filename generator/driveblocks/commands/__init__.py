@@ -16,7 +16,10 @@ if TYPE_CHECKING:
 
 FILE = click.Path(path_type=Path)
 MAPS = click.argument(
-    "maps", nargs=-1, metavar="[MAP]...", help="Paths of maps, or names of shipped ones; if none, all shipped ones."
+    "maps",
+    nargs=-1,
+    metavar="[MAP]...",
+    help="Paths of maps, or names or model numbers of shipped ones; if none, all shipped ones.",
 )
 
 

@@ -1,4 +1,4 @@
-"""`driveblocks diff`: what differs between two versions of a map or of the blocks, and what a PLC project notices."""
+"""`driveblocks diff`: what two versions of a map or of the blocks change, and what the swap of a drive takes."""
 
 import sys
 from typing import TYPE_CHECKING
@@ -11,22 +11,27 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from driveblocks.diff.change import Change
+    from driveblocks.docs.swap import Section
+    from driveblocks.maps.model import Drive
 
 
 @click.command()
-@click.argument("old", metavar="OLD", help="The older map, by path or name, or a folder of blocks as text.")
+@click.argument(
+    "old", metavar="OLD", help="The older map, by path, name or model number, or a folder of blocks as text."
+)
 @click.argument("new", metavar="NEW", help="The newer one, of the same kind.")
-@click.option("--changelog", is_flag=True, help="Print Markdown for a changelog; changes of words alone are counted.")
-@click.option("--json", is_flag=True, help="Print all changes as JSON.")
+@click.option("--changelog", is_flag=True, help="Print Markdown; of two versions, changes of words alone are counted.")
+@click.option("--json", is_flag=True, help="Print everything as JSON.")
 def run(old: str, new: str, changelog: bool, json: bool) -> None:
-    """List what differs between two versions of a map.
+    """List what differs between two versions of a map, or what a swap of two drives takes.
 
-    Of two maps, blocks and facts are compared: what no longer compiles (a pin is gone, a type is another one), what
-    acts differently (an address, a scale, a command), what is new, and where only words differ. Of two folders, such
-    as blocks/iec61131 of two releases, the pins of all blocks. The exit status is 0 if every program still compiles,
-    1 if one may not, 2 for bad input.
+    Of two families, what changes at the machine, side by side: wires, the line, the keypad, pins of the block, what the
+    drive can do and does by itself, faults. Of two versions of a map, blocks and facts: what no longer compiles (a pin
+    is gone, a type is another one), what acts differently (an address, a scale, a command), what is new, and where only
+    words differ. Of two folders, such as blocks/iec61131 of two releases, the pins of all blocks. The exit status is 0
+    if every program still compiles, 1 if one may not, 2 for bad input.
 
-    Example: driveblocks diff chf_of_last_year.yaml chf
+    Examples: driveblocks diff chf_of_last_year.yaml chf, driveblocks diff acs355 6SL3210-5BE17-5UV0
     """
     from driveblocks.diff import versions
     from driveblocks.diff.change import Kind
@@ -40,6 +45,10 @@ def run(old: str, new: str, changelog: bool, json: bool) -> None:
             wrong.append(str(error))
     if wrong:
         refuse("\n".join(wrong))
+    drives = [each.drive for each in found if each.drive]
+    if len(drives) == len(found) and drives[0].prefix != drives[1].prefix:
+        _swap(*drives, json=json, markdown=changelog)
+        sys.exit(1)
     try:
         changes = versions.compared(*found)
     except ValueError as error:
@@ -50,6 +59,46 @@ def run(old: str, new: str, changelog: bool, json: bool) -> None:
         click.echo("\n".join(_lines(found[0].title, found[1].title, changes, words=not changelog, markdown=changelog)))
     if any(each.kind is Kind.BREAKS for each in changes):
         sys.exit(1)
+
+
+def _swap(old: "Drive", new: "Drive", *, json: bool, markdown: bool) -> None:
+    """Print what the swap of a drive takes."""
+    from driveblocks import console
+    from driveblocks.docs import swap
+    from driveblocks.maps import view
+    from driveblocks.show.layout import heading, table
+
+    sections = list(swap.sections(old, new))
+    if json:
+        echo_json(
+            [
+                {"section": one.title, "what": row[0], "old": row[1], "new": row[2]}
+                for one in sections
+                for row in one.rows
+            ]
+        )
+    elif markdown:
+        click.echo(
+            "\n".join(_page(f"{view.title(old)} is replaced by {view.title(new)}", old.prefix, new.prefix, sections))
+        )
+    else:
+        console.write(f"{view.title(old)} is replaced by {view.title(new)}")
+        for one in sections:
+            made = table("", old.prefix, new.prefix, wide=("", old.prefix, new.prefix))
+            for row in one.rows:
+                made.add_row(*row)
+            console.write(heading(one.title), made)
+        console.write("\nThe order of the work, and what to try before the first start: blocks/docs/Swapping.md")
+
+
+def _page(title: str, old: str, new: str, sections: "list[Section]") -> "Iterator[str]":
+    from driveblocks.maps import view
+
+    yield f"# {view.markdown(title)}"
+    for one in sections:
+        yield f"\n## {one.title}\n\n| | {old} | {new} |\n|---|---|---|"
+        for row in one.rows:
+            yield f"| {' | '.join('<br>'.join(map(view.markdown, cell.splitlines())) for cell in row)} |"
 
 
 def _json(changes: "list[Change]") -> None:

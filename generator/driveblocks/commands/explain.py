@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     help="The frame as it was logged: bytes in hexadecimal, a hexdump, or the characters of an ASCII frame;"
     " - reads standard input.",
 )
-@click.option("--drive", metavar="DRIVE", help="Name of a shipped drive, or the path of a map.")
+@click.option("--drive", metavar="DRIVE", help="Name or model number of a shipped drive, or the path of a map.")
 @click.option("--request", metavar="FRAME", help="The request that the frame should answer.")
 @click.option("--json", is_flag=True, help="Print everything as JSON.")
 def run(frame: str, drive: str | None, request: str | None, json: bool) -> None:

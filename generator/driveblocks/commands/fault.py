@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 
 @click.command()
-@click.argument("drive", metavar="DRIVE", help="Name of a shipped drive, a part of it, or the path of a map.")
+@click.argument("drive", metavar="DRIVE", help="Name or model number of a shipped drive, or the path of a map.")
 @click.argument("code", metavar="CODE", help="As the keypad shows it, or as the bus gives it: 30, 1EH or 0x1E.")
 def run(drive: str, code: str) -> None:
     """Say what a fault means, what helps, and what clears it.

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 @click.argument(
     "drive",
     metavar="DRIVE|PLANT.yaml[:P1]",
-    help="Name of a shipped drive, a part of it, or the path of a map; or a plant, or a drive of it.",
+    help="Name or model number of a shipped drive, or the path of a map; or a plant, or a drive of it.",
 )
 @click.option("--master", is_flag=True, help="The requests of a PLC that is its own master.")
 @click.option("--address", metavar="N", type=int, help="Unit address of the drive, else 1.")

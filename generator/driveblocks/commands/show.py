@@ -16,7 +16,7 @@ TOPICS = ("registers", "faults", "errors", "frames", "errata", "absent", "serial
 
 
 @click.command()
-@click.argument("drive", metavar="DRIVE", help="Name of a shipped drive, a part of it, or the path of a map.")
+@click.argument("drive", metavar="DRIVE", help="Name or model number of a shipped drive, or the path of a map.")
 @click.argument(
     "what",
     required=False,

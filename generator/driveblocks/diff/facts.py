@@ -6,19 +6,33 @@ from typing import Any
 from driveblocks.diff.change import Change, Kind
 from driveblocks.maps.form import SPACES, Numbered, Span, address_text, bits_text, span_text
 
-KNOWN_BY = ("id", "does", "code", "value", "bit", "name", "what", "where", "address", "register", "measure", "shows")
+KNOWN_BY = (
+    "id",
+    "plate",
+    "does",
+    "code",
+    "value",
+    "bit",
+    "name",
+    "what",
+    "where",
+    "address",
+    "register",
+    "measure",
+    "shows",
+)
 """By what an entry of a list is found again, the surest first."""
 SINGULAR = {
     "registers": "register", "faults": "fault", "warnings": "warning",
     "errors": "error", "commands": "command", "settings": "setting",
     "frames": "frame", "errata": "erratum", "documents": "document", "notices": "notice", "sections": "section",
     "areas": "area", "functions": "function", "bits": "bit", "enum": "value", "values": "value",
-    "tolerances": "tolerance", "status": "status", "measures": "measure",
+    "models": "model", "tolerances": "tolerance", "status": "status", "measures": "measure",
 }  # fmt: skip
 WORDS = {
     "absent", "confidence", "corroborated", "document", "documents", "errata", "family", "frames", "id_forms", "manual",
-    "meaning", "name", "name_zh", "note", "notices", "numbering", "printed", "rule", "rung", "sections", "short",
-    "source", "sources", "symbol", "text_zh", "title", "vendor", "why", "wording", "zh", "zh_used",
+    "meaning", "models", "name", "name_zh", "note", "notices", "numbering", "printed", "rule", "rung", "sections",
+    "short", "source", "sources", "symbol", "text_zh", "title", "vendor", "why", "wording", "zh", "zh_used",
 }  # fmt: skip
 """Keys that a person reads, or that are seen in the names of blocks and pins."""
 OWN = {"drive", "revision", "format", "prefix"}

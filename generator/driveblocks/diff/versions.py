@@ -1,6 +1,6 @@
 """Two versions as a person names them, two maps or two folders of Structured Text, and what differs between them."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 
 from driveblocks.diff import facts, interface
@@ -52,19 +52,6 @@ def compared(old: Version, new: Version) -> list[Change]:
         raise ValueError("one is a map and the other a folder of blocks; name two of a kind")
     changes = [*interface.compared(old.faces, new.faces)]
     if old.drive is not None and new.drive is not None:
-        changes = [*_prefixed(old.drive.prefix, new.drive.prefix, old.faces, new.faces)]
         changes += facts.compared(view.of_drive(old.drive, old.stem), view.of_drive(new.drive, new.stem))
     order = list(Kind)
     return sorted(dict.fromkeys(changes), key=lambda each: order.index(each.kind))
-
-
-def _prefixed(before: str, after: str, old: dict[str, interface.Face], new: dict[str, interface.Face]) -> list[Change]:
-    """What differs in blocks; another prefix is one change, and the blocks are compared under the new one."""
-    if before == after:
-        return [*interface.compared(old, new)]
-    renamed = {
-        name.replace(before.upper(), after.upper(), 1): replace(face, name=face.name.replace(before, after, 1))
-        for name, face in old.items()
-    }
-    said = Change(Kind.BREAKS, "every block and function", f"begins with {before}_, now with {after}_")
-    return [said, *interface.compared(renamed, new)]

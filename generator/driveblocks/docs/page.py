@@ -6,7 +6,21 @@ from dataclasses import dataclass
 from math import ceil
 from typing import Any
 
-from driveblocks.docs import brief, bus, chain, evidence, keypad, ladder, network, recipe, socket, states, sto, timing
+from driveblocks.docs import (
+    brief,
+    bus,
+    chain,
+    evidence,
+    keypad,
+    ladder,
+    network,
+    recipe,
+    socket,
+    states,
+    sto,
+    swap,
+    timing,
+)
 from driveblocks.docs.members import members
 from driveblocks.docs.pins import Pin, pins
 from driveblocks.maps import inventory, references, rivals, trust
@@ -50,11 +64,6 @@ RATES = (9600, 19200)
 DRIVES = (1, 3, 7)
 TURN_ROUND_MS = 5
 """Under what the page's figures hold; no manual promises it."""
-ABILITIES = {
-    "run_reverse": "run in reverse", "jog_forward": "jog forward", "jog_reverse": "jog in reverse",
-    "quick_stop": "quick stop", "coast_stop": "coast stop", "fault_reset": "reset a fault",
-}  # fmt: skip
-"""Command -> what a drive can do over the bus if it has it."""
 CONDUCT = ("identity", "watchdog", "commanded_by", "own_maximum", "trip_output")
 """What gaps about what a drive does by itself refer to."""
 UNKNOWN = "not known"
@@ -139,7 +148,7 @@ def _shared(drives: list[Drive], blocks: Mapping[str, FunctionBlock]) -> dict[st
         f"{FOLDER}/sto.svg": sto.picture(),
         f"{FOLDER}/Swapping.md": render(
             "docs/Swapping.md.j2",
-            drives=[_swapped(drive) for drive in drives],
+            drives=[swap.pins(drive) | {"word": drive.prefix.lower()} for drive in drives],
             mistaken=list(_mistaken(drives)),
             unknown=_unknown(drives),
         ),
@@ -175,11 +184,22 @@ def families(files: list[File], drives: list[Drive], checked: Checked, platforms
     return render(
         "docs/Families.md.j2",
         families=rows,
+        plates=_plates(drives),
         trusted=list(trust.SHOWN),
         platforms=platforms,
         files=names,
         wide=any("Chinese" in name for name in names),
     )
+
+
+def _plates(drives: list[Drive]) -> list[dict[str, str]]:
+    """The patterns of model numbers, each with a printed one that fits."""
+    rows = [
+        {"plate": one.plate, "prefix": drive.prefix, "example": next(filter(one.plate.fits, one.printed))}
+        for drive in drives
+        for one in drive.models
+    ]
+    return sorted(rows, key=lambda row: row["plate"])
 
 
 def _turns_on(drive: Drive) -> str:
@@ -209,21 +229,6 @@ def _wires(drive: Drive) -> dict[str, str]:
         "termination": own.termination or UNKNOWN,
         "silence": milliseconds or characters or UNKNOWN,
         "find_out": "; ".join(find_out for _, find_out in own.gaps),
-    }
-
-
-def _swapped(drive: Drive) -> dict[str, str]:
-    """What a block of this family wants otherwise than that of another."""
-    line, speed, able = serial(drive), reference(drive), words(drive).named
-    return {
-        "prefix": drive.prefix,
-        "full": f"required: what {speed.maximum} says" if speed.percent else "no use",
-        "scale": "no use" if speed.scaled else "required",
-        "pairs": "required" if speed.in_rpm else "no use",
-        "checked": "required" if trust.second_hand(drive) else "no use",
-        "reset": "yes" if "fault_reset" in able else "no",
-        "cannot": ", ".join(said for does, said in ABILITIES.items() if does not in able) or "nothing",
-        "units": f"{line.lowest} to {line.highest}",
     }
 
 
@@ -306,7 +311,7 @@ def _page(drive: Drive, checked: Checked, values: Mapping[str, Any], own: Own, p
             (one.title for one in drive.documents if drive.faults.help and one.id == drive.faults.help.document),
             "its manual",
         ),
-        cannot=[said for does, said in ABILITIES.items() if does not in words(drive).named],
+        cannot=[said for does, said in swap.ABILITIES.items() if does not in words(drive).named],
         hides=[pin.name for pin in values["outputs"] if pin.idle],
         settings=settings(drive),
         keypad=keypad.rows(drive),

@@ -45,6 +45,7 @@ def whole(root: Entries, file: Path, taken: Node, sister: Drive, report: Report)
     assert isinstance(base, Entries)  # noqa: S101  (a checked map is a mapping)
     own = _Own(_word("document", file.stem, at), sister.family.en)
     entries = base.entries | {"documents": _documents(base, file, sister)}
+    entries.pop("models", None)  # the nameplate of a sister is that of another drive
     made = _entries(EntryOf(Drive), Entries(entries, base.at), root, own)
     return Entries(made.entries | {"documents": _named(made, _rows(root))}, made.at)
 

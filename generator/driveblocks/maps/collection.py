@@ -34,7 +34,7 @@ def read(paths: Iterable[Path]) -> list[Source]:
 
 def clashes(sources: list[Source]) -> list[Problem]:
     """What prevents one library for all of these maps."""
-    return [*_shared_prefixes(sources), *_shared_folders(sources)]
+    return [*_shared_prefixes(sources), *_shared_folders(sources), *_shared_plates(sources)]
 
 
 def _shared_prefixes(sources: list[Source]) -> list[Problem]:
@@ -64,3 +64,20 @@ def _shared_folders(sources: list[Source]) -> list[Problem]:
             problems.append(Problem(str(source.path), 1, 1, wrong, "give the file of this map another name"))
         taken[stem] = str(source.path)
     return problems
+
+
+def _shared_plates(sources: list[Source]) -> list[Problem]:
+    """A nameplate is that of one drive."""
+    return [
+        Problem(
+            str(source.path),
+            *one.place("plate"),
+            f"a model number that fits {one.plate} may fit {each.plate} of {other.path}, too",
+            "write what tells the two apart",
+        )
+        for index, source in enumerate(sources)
+        for one in source.drive.models
+        for other in sources[:index]
+        for each in other.drive.models
+        if one.plate.meets(each.plate)
+    ]

@@ -34,6 +34,32 @@ class Span:
         return self.first <= other.last and other.first <= self.last
 
 
+class Plate(str):
+    """A pattern of the model numbers of nameplates: `x` is any letter or digit, `*` at its end any number of them.
+
+    Hyphens, points, strokes, plus signs, brackets and blanks after letters and digits are no matter, and case is none.
+    """
+
+    def fits(self, number: str) -> bool:
+        """Whether it is the pattern of a model number."""
+        known = _bare(self).replace("x", "[A-Z0-9]").replace("*", "[A-Z0-9]*")
+        return re.fullmatch(known, _bare(number.upper())) is not None
+
+    def meets(self, other: "Plate") -> bool:
+        """Whether a model number may fit both."""
+        one, two = sorted((_bare(self), _bare(other)), key=len)
+        for mine, its in zip(one, two, strict=False):
+            if "*" in (mine, its):
+                return True
+            if mine != its and "x" not in (mine, its):
+                return False
+        return two[len(one) :] in ("", "*")
+
+
+def _bare(number: str) -> str:
+    return re.sub(r"(?<=[A-Z0-9x])[-./+() ]+", "", number)
+
+
 @dataclass(frozen=True)
 class Form:
     """One way to write a value: a full-match pattern, its parser, and the words for messages and for the schema."""
@@ -265,6 +291,13 @@ REFERENCE = _form(
     r"[a-z_]+( \S+)?",
     lambda said: said,
     "write what the entry is about, such as `register 0220H` or `bit 0015H.7`",
+)
+PLATE = _form(
+    "pattern of model numbers",
+    r"[A-Z0-9](?:[-./ ]?[A-Z0-9]){2}(?:[-./ ]?[A-Z0-9x])*[-./]?\*?",
+    Plate,
+    "write it as on the nameplate, with three letters or digits at least, then `x` for any one and `*` at the end for "
+    "all others, such as 22F-*",
 )
 ID_FORM = _form(
     "id form",

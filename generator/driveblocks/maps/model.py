@@ -197,6 +197,19 @@ class Returned(Named):
 
 
 @dataclass(frozen=True, kw_only=True)
+class Model(Cited):
+    """A pattern of model numbers, by which a drive is found from its nameplate; `printed` has one that fits."""
+
+    plate: Annotated[form.Plate, form.PLATE] = fact(
+        "the model number as on the nameplate; `x` is any letter or digit, `*` at the end any others; hyphens, points, "
+        "strokes and blanks are no matter",
+        "22F-*",
+    )
+    source: English = fact("where a text prints such a number", "page P-4, catalog number explanation")
+    document: Word | None = option(_SAYS_SO, "fieldbus_guide")
+
+
+@dataclass(frozen=True, kw_only=True)
 class Corroboration(Entry):
     """Another public document that says the same, or what this manual does not. Never replaces a value silently."""
 
@@ -1493,6 +1506,11 @@ class Drive(Entry):
     prefix: Annotated[str, form.PREFIX] = fact("what the names of its blocks start with", "SN300G5")
     vendor: Text = fact("maker", "{en: SHUEN, zh: 数恩}")
     family: Text = fact("family", "{en: SN300G5 series, zh: SN300G5系列变频器}")
+    models: tuple[Model, ...] = option(
+        "the model numbers on nameplates, by which the drive is found; never those of its base",
+        "[{plate: 22F-*, printed: [22F-D2P5N103], source: page P-4}]",
+        default=(),
+    )
     manual: Manual = fact("the manual that the map was read from", "{title: ..., publisher: ...}")
     id_forms: tuple[Annotated[str, form.ID_FORM], ...] = fact(
         "forms of the manual's parameter ids: A letter, a small letter, 9 digit, X letter or digit", "[A9-99]"

@@ -12,7 +12,7 @@ _LATER = {
     "None": "base numbering document trust differs no_address reply_delay group present_bits needs full_scale "
     "full_scale_hz warnings silent_ms coil discrete input by counts lower_limit stop_bits below above delivered "
     "profile help display pins",
-    "()": "never without twins twin_ranges otherwise does at_0 fed_by editions forbids remedies",
+    "()": "never without twins twin_ranges otherwise does at_0 fed_by editions forbids remedies models",
     "False": "negative holds power_cycle",
 }
 """Keys that the format has learned since the first numbers were printed, by what they are when they are left out."""
@@ -27,7 +27,7 @@ _LEFT_OUT = re.compile(
 def revision(drive: Drive) -> int:
     """A hash of a map's facts, 32 bits: what it says in English, wherever in the file it is.
 
-    What helps against a fault, and where the line is connected, is for a person, and no part of it.
+    What helps against a fault, where the line is connected, and what nameplates say is for a person, and no part of it.
     """
     return int(fingerprint([_facts(_without_help(english(drive)))]), 16)
 
@@ -67,7 +67,7 @@ def _without_help(drive: Drive) -> Drive:
     known = drive.faults
     codes = tuple(replace(one, causes=(), remedies=(), power_cycle=False) for one in known.codes)
     faults, serial = replace(known, codes=codes, help=None), replace(drive.serial, pins=None)
-    plain = replace(drive, faults=faults, serial=serial)
+    plain = replace(drive, faults=faults, serial=serial, models=())
     alone = _named(drive) - _named(plain)
     return replace(plain, documents=tuple(one for one in drive.documents if one.id not in alone))
 

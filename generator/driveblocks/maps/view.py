@@ -22,7 +22,7 @@ def of_drive(drive: Drive, stem: str) -> Plain:
     return {
         "drive": stem,
         "revision": f"{revision(drive):08X}",
-        **{key: plain(getattr(drive, key)) for key in ("format", "prefix", "vendor", "family", "manual")},
+        **{key: plain(getattr(drive, key)) for key in ("format", "prefix", "vendor", "family", "models", "manual")},
         **{key: plain(getattr(drive, key)) for key in ("id_forms", "documents")},
         "numbering": {**_entry(drive.numbering), "hexadecimal": in_hex(drive)} if drive.numbering else None,
         "registers": [one for section, row in drive.registers() for one in of_row(section, row)],

@@ -29,6 +29,16 @@ def check(drive: Drive, report: Report) -> None:
     _on_site(drive, report)
     _documents(drive, report)
     _rungs(drive, report)
+    _models(drive, report)
+
+
+def _models(drive: Drive, report: Report) -> None:
+    """Note a pattern of model numbers that no number shows which a text prints."""
+    unique(drive.models, "plate", "model", report)
+    for one in drive.models:
+        if not any(map(one.plate.fits, one.printed)):
+            right = "add `printed:` with one as a text prints it, such as [22F-D2P5N103]"
+            report.miss(one.place("printed"), f"no printed model number fits {one.plate}", right)
 
 
 def _rungs(drive: Drive, report: Report) -> None:
