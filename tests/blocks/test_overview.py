@@ -125,8 +125,20 @@ def longest(drive: Drive) -> dict[str, Value]:
     return {**WRITE, "Address": start, "Quantity": sizes[start]}
 
 
-UNTYPED = [name for name in (f"{prefix}_Request" for prefix in drives()) if name not in WORST]
-WORST |= {name: longest(drives()[name.removesuffix("_Request")]) for name in UNTYPED if ROWS[name][2] != "none"}
+def all_set(block: str) -> dict[str, Value]:
+    """Every bit of the words that it reads."""
+    declared = TEXTS[block].partition("VAR_INPUT")[2].partition("END_VAR")[0]
+    return dict.fromkeys(re.findall(r"^  (\w+) : WORD;", declared, re.MULTILINE), 0xFFFF)
+
+
+NUMBERS = [name for name in ROWS if name.endswith("_FaultNumber") and name not in WORST]
+WORST |= {name: all_set(name) for name in NUMBERS}
+UNTYPED = [*NUMBERS, *(name for name in (f"{prefix}_Request" for prefix in drives()) if name not in WORST)]
+WORST |= {
+    name: longest(drives()[name.removesuffix("_Request")])
+    for name in UNTYPED
+    if name not in NUMBERS and ROWS[name][2] != "none"
+}
 
 SLACK = {
     "MB_AsciiDecode": 1, "MB_Frame": 3, "SN300G5_FaultNumber": 32, "GD200A_Request": 1, "ATV312_Request": 23,

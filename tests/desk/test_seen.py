@@ -244,8 +244,9 @@ def test_a_picture_shows_speed_and_reference_state_and_reason_in_words_and_what_
     (sheet,) = (each for each in drawn.iter(f"{SPACE}g") if each.get("class") == layout)
     curves = {
         kind: [
-            [tuple(map(float, point.split(","))) for point in each.get("points", "").split()]
-            for each in sheet.iter(f"{SPACE}polyline")
+            [tuple(map(float, point.split(","))) for point in way.split("L")]
+            for each in sheet.iter(f"{SPACE}path")
+            for way in each.get("d", "")[1:].split("M")
             if each.get("class") == kind
         ][1:]  # the first is the sample of the legend
         for kind in ("go", "dashed", "stop")

@@ -37,10 +37,6 @@ def made(name: str, *, printed: str, now: str) -> Drive:
     return loads(text.replace(printed, now), name)
 
 
-def test_there_are_three() -> None:
-    assert len(FILES) == 3
-
-
 @pytest.mark.parametrize("name", FILES)
 def test_a_map_is_good(name: str) -> None:
     assert drive(name).frames

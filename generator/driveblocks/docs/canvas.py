@@ -1,5 +1,6 @@
 """Pictures as SVG that read on light and on dark pages; the same content gives the same text."""
 
+import re
 from dataclasses import dataclass, field
 
 from driveblocks.platforms.element import escaped
@@ -61,8 +62,11 @@ class Canvas:
         self.body.append(f'<rect class="{kind}" x="{x:g}" y="{y:g}" width="{width:g}" height="{height:g}" rx="4"{end}')
 
     def path(self, points: list[tuple[float, float]], kind: str = "line") -> None:
-        way = " ".join(f"{x:g},{y:g}" for x, y in points)
-        self.body.append(f'<polyline class="{kind}" points="{way}"/>')
+        """A line through these points; it joins one of its kind that was drawn just before."""
+        begin, way = f'<path class="{kind}" d="', "M" + "L".join(f"{x:g},{y:g}" for x, y in points)
+        if self.body and self.body[-1].startswith(begin):
+            way = self.body.pop()[len(begin) : -len('"/>')] + way
+        self.body.append(f'{begin}{way}"/>')
 
     def curve(self, begin: tuple[float, float], by: tuple[float, float], end: tuple[float, float]) -> None:
         """A line that bends towards a point."""
@@ -86,12 +90,20 @@ class Canvas:
 
     def svg(self) -> str:
         size = f'width="{self.width}" height="{self.height}" viewBox="0 0 {self.width} {self.height}"'
-        return _whole(size, self.title, STYLE, self.page)
+        return _whole(size, self.title, used(self.page), self.page)
+
+
+def used(body: list[str]) -> str:
+    """The lines of `STYLE` for what is in a picture."""
+    classes = {name for line in body for found in re.findall(r'class="([^"]+)"', line) for name in found.split()}
+    return "\n".join(
+        line for line in STYLE.splitlines() if line[0] != "." or classes & set(re.findall(r"\.([a-z]+)[ ,]", line))
+    )
 
 
 def folding(wide: Canvas, narrow: Canvas) -> str:
     """One picture in two layouts: a window that has no room for the wide one shows the narrow one."""
-    style = f"""{STYLE}
+    style = f"""{used([*wide.page, *narrow.page])}
 :root {{ width: {wide.width}px; height: {wide.height}px }}
 .narrow {{ display: none }}
 @media (max-width: {wide.width - 1}px) {{

@@ -8,7 +8,7 @@ from driveblocks.docs import brief, keypad
 from driveblocks.maps import inventory, rivals, trust
 from driveblocks.maps.model import Drive, Shows
 from driveblocks.maps.revision import checked
-from driveblocks.meaning import chosen, conduct
+from driveblocks.meaning import chosen, conduct, setting
 from driveblocks.meaning.measure import PINS, measures
 from driveblocks.meaning.plug import plug
 from driveblocks.meaning.reference import reference
@@ -152,28 +152,11 @@ def _keypad(old: Drive, new: Drive) -> Iterator[Row]:
 
 def _by_job(drive: Drive) -> dict[str, list[str]]:
     """What it does -> settings, each with what it is to be."""
-    jobs, found = _jobs(drive), dict[str, list[str]]()
+    jobs, found = setting.jobs(drive), dict[str, list[str]]()
     for title, some in keypad.rows(drive).items():
         for row in (one for one in some if title != _LEFT or one.setting.id in jobs):
             found.setdefault(jobs.get(row.setting.id, title.lower()), []).append(_cell(row))
     return found
-
-
-def _jobs(drive: Drive) -> dict[str, str]:
-    """Setting -> what it does, as the rest of the map says; the first of several."""
-    line, dog, run = drive.serial, drive.watchdog, drive.operation
-    choices = {"bit rate": line.baud, "format": line.format, "stop bits": line.stop_bits, "framing": line.mode}
-    named = {
-        "unit address": line.unit.setting,
-        **{job: one.setting if one else None for job, one in choices.items()},
-        "delay of replies": line.reply_delay.setting if line.reply_delay else None,
-        "a silent line": dog.chosen_by if dog else None,
-        "watchdog time": dog.time.setting if dog and dog.time else None,
-        "watchdog off": dog.disabled_by.setting if dog and dog.disabled_by else None,
-        "100 % of the speed": run.reference.maximum,
-        "lower limit": run.lower_limit,
-    }
-    return {id_: job for job, id_ in reversed(named.items()) if id_}
 
 
 def _cell(row: keypad.Row) -> str:

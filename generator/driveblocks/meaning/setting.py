@@ -204,3 +204,20 @@ def _silence(drive: Drive) -> tuple[str, ...]:
 def _menu(id_: str | None) -> str:
     """What ids of one menu begin with: P14 of P14.00, C12 of C124; the id where it has no number."""
     return re.sub("[.-][0-9]+$|[0-9]$", "", id_ or "")
+
+
+def jobs(drive: Drive) -> dict[str, str]:
+    """Setting -> what it does, as the rest of the map says; the first of several."""
+    line, dog, run = drive.serial, drive.watchdog, drive.operation
+    choices = {"bit rate": line.baud, "format": line.format, "stop bits": line.stop_bits, "framing": line.mode}
+    named = {
+        "unit address": line.unit.setting,
+        **{job: one.setting if one else None for job, one in choices.items()},
+        "delay of replies": line.reply_delay.setting if line.reply_delay else None,
+        "a silent line": dog.chosen_by if dog else None,
+        "watchdog time": dog.time.setting if dog and dog.time else None,
+        "watchdog off": dog.disabled_by.setting if dog and dog.disabled_by else None,
+        "100 % of the speed": run.reference.maximum,
+        "lower limit": run.lower_limit,
+    }
+    return {id_: job for job, id_ in reversed(named.items()) if id_}
