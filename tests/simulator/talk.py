@@ -109,6 +109,7 @@ PREPARED = {
     "GD200A read_rtu_request": (Habits(), {4: 5000}),
     "GD200A read_ascii_request": (Habits(), {4: 5000}),
     "GS4 read_ascii": (Habits(), {0x2102: 0x1770}),
+    "MS300 read_request": (Habits(), {0x2102: 0x1770}),
     "V20 maximum_request": (Habits(), {15: 5000}),
     "FC51 read_request": (Habits(), {0x0D5C: 3}),
     "FC51 maximum_request": (Habits(), {0x0BD6: 50000}),
