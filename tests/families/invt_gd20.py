@@ -3,6 +3,15 @@
 Typed from them by hand; no map was read for it. What is not here is as in the Goodrive200A.
 """
 
+CONTROL = "transcribed"
+BRIEF = (
+    "485+, A (+)",
+    "P00.01 = 2",
+    "(P14.04 0.0 s) the motor runs on",
+    "a rising FaultReset",
+    "31 codes",
+    "2500 in 2001H",
+)
 ROWS = """
 2000 | - | rw | - | -
 2001 | - | rw | Hz | 0.01

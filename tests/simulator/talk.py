@@ -108,6 +108,8 @@ PREPARED = {
     "CHF read_ascii_request": (Habits(), {4: 2}),
     "GD200A read_rtu_request": (Habits(), {4: 5000}),
     "GD200A read_ascii_request": (Habits(), {4: 5000}),
+    "GD20 read_rtu_request": (Habits(), {4: 5000}),
+    "GD20 read_ascii_request": (Habits(), {4: 5000}),
     "V20 maximum_request": (Habits(), {15: 5000}),
 }
 """What the drives of the manuals' examples had in their registers."""
