@@ -19,6 +19,7 @@ BRIEF = (
     "2500 in 2001H",
 )
 ALIKE = {("fault_reset", "Reset"), ("run_forward", "Forward"), ("run_reverse", "Reverse"), ("stop", "Stop")}
+HELD = {"read_ascii": {0x2102: 0x1770}}
 KEYPAD = """
 P3.00 | - | - | - | -
 P4.00 | - | 0 | 0=keypad 1=rs485 2=analog 3=up 4=card | -

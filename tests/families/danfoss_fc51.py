@@ -42,6 +42,7 @@ ALIKE = {
     )
 } | {("fault_reset", "Reset"), ("quick_stop", "No coast stop")}
 """A word of one bit has bit 3 at 0 and coasts, or bit 4 at 0."""
+HELD = {"read_request": {0x0D5C: 3}, "maximum_request": {0x0BD6: 50000}}
 KEYPAD = """
 8-30 | - | - | 2=modbus | -
 8-31 | - | - | 1 to 247 | -

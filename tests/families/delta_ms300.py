@@ -10,6 +10,7 @@ BRIEF = (
     "49 codes",
     "2500 in 2001H",
 )
+HELD = {"read_request": {0x2102: 0x1770}}
 KEYPAD = """
 00-20 | - | 0 | 0=keypad 1=rs-485 2=analog 3=up 4=pulse 6=canopen 7=dial 8=card | -
 00-21 | - | 0 | 0=keypad 1=terminals 2=rs-485 3=canopen 5=card | -

@@ -27,6 +27,7 @@ ALIKE = {
     ("run_reverse", "Run reverse"),
     ("stop", "Stop"),
 }
+HELD = {"read_ascii_request": {4: 2}}
 KEYPAD = """
 P0.04 | - | - | - | -
 """

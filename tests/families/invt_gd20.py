@@ -3,6 +3,15 @@
 Typed from them by hand; no map was read for it. What is not here is as in the Goodrive200A.
 """
 
+CONTROL = "transcribed"
+BRIEF = (
+    "485+, A (+)",
+    "P00.01 = 2",
+    "(P14.04 0.0 s) the motor runs on",
+    "a rising FaultReset",
+    "31 codes",
+    "2500 in 2001H",
+)
 ROWS = """
 2000 | - | rw | - | -
 2001 | - | rw | Hz | 0.01
@@ -46,3 +55,4 @@ FUNCTIONS = [3, 6, 8, 16]
 LIMITS = {"read_words": 16, "write_words": 16}
 REFUSALS = [1, 2, 3, 4, 5, 6, 7, 8, 9]
 """E133, 1 to 8; page 130 of the UL edition has 9."""
+HELD = {"read_rtu_request": {4: 5000}, "read_ascii_request": {4: 5000}}

@@ -31,6 +31,7 @@ ALIKE = {
 PLUG = "485+ positive, 485- negative"
 """Goodrive200A, 9.3.1: A (+) and B (-), "485+ on the terminal board corresponds to A and 485- to B"."""
 TERMINATION = ("120 ohm",)
+HELD = {"read_rtu_request": {4: 5000}, "read_ascii_request": {4: 5000}}
 KEYPAD = """
 P00.01 | - | 0 | 0=keypad 1=terminals 2=communication | -
 P00.02 | - | 0 | 0=modbus | -

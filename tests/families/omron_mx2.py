@@ -29,6 +29,7 @@ ALIKE = {
 PLUG = "SP positive, SN negative"
 """Starkest's library, Hitachi WJ200: SP (+), SN (-)."""
 TERMINATION = ("200 ohm", "DIP switch")
+HELD = {"read_trip_request": {0x12: 4, 0x14: 1234, 0x15: 300, 0x16: 2840}}
 KEYPAD = """
 A001 | - | - | - | -
 A002 | - | - | 03=modbus | -

@@ -1,17 +1,23 @@
 """What pages 22 and 23 of the VM600's manual say, typed from them by hand; no map was read for it."""
 
 STATUS = 0x3000
-FACES = {"stands": 0x0003, "ramps": 0x0001, "runs": 0x0001, "reverse": 0x0002, "fault": 0x0003}
-"""1 FWD running, 2 REV running, 3 stopped; a fault is in 8000H alone."""
+FACES = {"stands": 0x0003, "ramps": 0x0001, "runs": 0x0001, "reverse": 0x0002, "fault": 0x0003, "warning": 0x0003}
+"""1 FWD running, 2 REV running, 3 stopped; a fault is in 8000H alone, and a warning nowhere."""
 FREQUENCY = 0x1001
 COUNTS_PER_HZ = 100
 FAULT = (0x8000, 18)
-CODES = (2, 4, 5, 5, 6, 6, 8)
-"""8001H: 2 command code, 4 invalid address, 5 invalid parameter, 6 adjustment failed, 8 being saved."""
+CODES = (2, 4, 3, 3, 4, None, 8)
+"""8001H: 2 command code, 4 invalid address, 8 being saved; none is of a value beyond its range."""
 PASSING = (3, 4, 3)
-CONTROL = "sister"
 PINS = {"FullScaleHz", "ManualChecked"}
-BRIEF = ("not known", "group F0", "not known", "a rising FaultReset", "13 codes", "5000 in 1000H")
+BRIEF = (
+    "not known",
+    "to choose: F0.05",
+    "count on a motor that runs on",
+    "a rising FaultReset",
+    "13 codes",
+    "5000 in 1000H",
+)
 ALIKE = {
     ("coast_stop", "Free stop"),
     ("fault_reset", "Fault reset"),
@@ -60,13 +66,13 @@ MEASURES = {"output_frequency": "1001", "output_current": "1005", "output_voltag
 FUNCTIONS = [3, 6]
 REFUSALS = {
     1: "Password error",
-    2: "Command code error",
+    2: "Illegal function code",
     3: "CRC error",
     4: "Invalid address",
     5: "Invalid parameter",
     6: "Parameter not adjusted",
     7: "System locked",
-    8: "Parameters being saved",
+    8: "Busy saving parameters",
 }
 FAULTS = {
     2: "Overcurrent while accelerating",

@@ -34,6 +34,7 @@ PLUG = "1 reserved, 2 reserved, 3 reserved, 4 positive, 5 negative, 6 unconnecte
 """BBV52816, page 8, pin out of the ATV312 RJ45 connector; D1 and D0 after pages 10 and 19."""
 WIRED = True
 TERMINATION = ("120 ohm 0.25 W", "1 nF 10 V")
+HELD = {"read_limits_request": {0x0C1E: 40, 0x0C1F: 600, 0x0C20: 500}}
 KEYPAD = """
 LAC | CtL- | L1 | L1 L2 L3 | -
 Fr1 | CtL- | AI1 | AI1 AI2 AI3 AIV1 UPdt=inputs UPdH=dial LCC=remote Mdb=modbus 167=canopen | -

@@ -24,6 +24,7 @@ ALIKE = {("coast_stop", "Control via PLC")}
 PLUG = "5 common, 6 positive, 7 negative"
 """A5E03728167, page 25: 5 0V, overall reference potential for RS485; 6 P+, RS485 P+; 7 N-, RS485 N-."""
 WIRED = True
+HELD = {"maximum_request": {15: 5000}}
 KEYPAD = """
 P0010 | - | 0 | - | -
 P0970 | - | - | 1=user 21=factory | -

@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 from decimal import Decimal
 
+from tests import families
 from tests.shipped import drives
 
 from driveblocks.bench.simulator.drive import SimulatedDrive
@@ -98,23 +99,10 @@ def talk(family: str | Drive, habits: Habits | None = None, **words: int) -> Tal
     return Talk(found, SimulatedDrive(found, 1, habits, words=begin))
 
 
-PREPARED = {
-    "MX2 read_trip_request": (Habits(), {0x12: 4, 0x14: 1234, 0x15: 300, 0x16: 2840}),
-    "ATV312 read_limits_request": (Habits(), {0x0C1E: 40, 0x0C1F: 600, 0x0C20: 500}),
-    # 0026H holds 589, 0027H 0: the manual gives no scale, so one count is one volt here
-    "SN300G5 read_dc_bus_request": (Habits(bus_volts=589, scales={0x26: Decimal(1)}), {}),
-    "JSCC read_frequency_rtu_request": (Habits(), {}),
-    "JSCC read_frequency_ascii_request": (Habits(), {}),
-    "CHF read_ascii_request": (Habits(), {4: 2}),
-    "GD200A read_rtu_request": (Habits(), {4: 5000}),
-    "GD200A read_ascii_request": (Habits(), {4: 5000}),
-    "GS4 read_ascii": (Habits(), {0x2102: 0x1770}),
-    "MS300 read_request": (Habits(), {0x2102: 0x1770}),
-    "V20 maximum_request": (Habits(), {15: 5000}),
-    "FC51 read_request": (Habits(), {0x0D5C: 3}),
-    "FC51 maximum_request": (Habits(), {0x0BD6: 50000}),
-}
-"""What the drives of the manuals' examples had in their registers."""
+# 0026H of the SN300G5 holds 589, 0027H 0: the manual gives no scale, so one count is one volt here
+HABITS = {"SN300G5 read_dc_bus_request": Habits(bus_volts=589, scales={0x26: Decimal(1)})}
+HELD: dict[str, dict[str, dict[int, int]]] = families.own("HELD")
+"""What the drives of the manuals' examples had in their registers, by prefix and request."""
 
 
 def pairs() -> list[tuple[str, Frame, Frame]]:
@@ -133,7 +121,7 @@ def body(frame: Frame) -> bytes:
 
 def prepared(prefix: str, request: Frame, reply: Frame) -> SimulatedDrive:
     """A drive that stands as that of the example did."""
-    habits, words = PREPARED.get(f"{prefix} {request.id}", (Habits(), {}))
+    habits, words = HABITS.get(f"{prefix} {request.id}", Habits()), HELD.get(prefix, {}).get(request.id, {})
     drive = SimulatedDrive(MAPS[prefix], body(request)[0], habits, words=words)
     place = (MAPS[prefix].faults.present or 0) - (request.means.address or 0)
     if place in range(len(reply.means.values)) and reply.means.values[place]:
