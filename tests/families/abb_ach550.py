@@ -1,5 +1,9 @@
 """What pages of ACH550-UH (DriveIT), L: its later edition, E: the EFB manual, and of sisters say, typed by hand."""
 
+STATUS = 0x012E
+FACES = {"stands": 0x0012, "ramps": 0x000A, "runs": 0x008A, "reverse": 0x088A, "fault": 0x8010, "warning": 0x0012}
+"""E page 22: bit 1 enabled, 3 running, 4 zero speed, 7 at setpoint, B reverse, F fault; the alarm is in 0304."""
+CHART = 0x0000
 CONTROL = "sister"
 BRIEF = (
     "pin 29, B (Positive +); - (D0, A of the standard) on pin 30, A (Negative -)",
@@ -39,6 +43,8 @@ ROWS = """
 0066 | 0103 | r | - | signed
 0067 | 0104 | r | A | -
 006A | 0107 | r | V | -
+012E | 0303 | r | - | -
+012F | 0304 | r | - | -
 0190 | 0401 | r | - | -
 044F | 1104 | rw | Hz | -
 0450 | 1105 | rw | Hz | -
@@ -57,16 +63,17 @@ WAITS = ("ready_to_switch_on", 100, "ready_to_operate", "operation_enabled", Non
 """E page 31: bits 0, 1 and 2."""
 REFERENCE = "0001 fraction_of_full_scale 20000"
 """Page 207: +20000 = (par. 1105)."""
-STANDSTILL = "0003.2=0 0066=0"
-"""E page 31, RDY_REF 0; L page 1-198, 40103."""
+STANDSTILL = "012E&0018=0010 0066=0"
 SHOWS = {
-    "running": "0003.2=1",
-    "at_speed": "0003&0104=0104",
-    "ready": "0003.C=1",
-    "warning": "0003.7=1",
-    "fault": "0003.3=1",
+    "running": "012E.3=1",
+    "at_speed": "012E&0088=0088",
+    "ready": "012E.1=1",
+    "warning": "012F.0=1",
+    "fault": "012E.F=1",
+    "reverse": "012E.B=1",
+    "zero_speed": "012E.4=1",
 }
-"""E page 31."""
+"""E page 22: bits of 0303, and bit 16, the first of 0304."""
 MEASURES = {"output_frequency": "0066", "output_current": "0067", "dc_bus_voltage": "006A"}
 NEEDED = {"9802": 1, "1001": 10, "1003": 3, "1102": 8, "1103": 8, "5305": 0, "3018": 1}
 """Pages 163 and 148; ACS550-01, page 187."""
