@@ -95,11 +95,11 @@ FUNCTIONS = [3, 8, 16]
 REFUSALS = {
     0x01: "Function code error",
     0x02: "Register number error",
-    0x03: "Bit count error",
+    0x03: "Word quantity error",
     0x21: "Data setting error",
     0x22: "Write mode error",
     0x23: "DC bus undervoltage write error",
-    0x24: "Write error during parameter process",
+    0x24: "Write during parameter processing",
 }
 """J1000, page 231."""
 FAULTS = {
