@@ -14,7 +14,7 @@ PINS = {"ManualChecked"}
 BRIEF = (
     "not known",
     "b1-01 = 2, b1-02 = 2",
-    "(H5-04 0 = Ramp to stop) the motor stops",
+    "what H5-04 says",
     "FaultReset",
     "22 codes",
     "2500 in 0002H",
@@ -93,16 +93,24 @@ UNIT = (1, 247, 31)
 FUNCTIONS = [3, 8, 16]
 """J1000, page 231: others than 03H, 08H and 10H are refused."""
 REFUSALS = {
-    1: "FUNCTION CODE", 2: "REGISTER NUMBER", 3: "BIT COUNT", 0x21: "DATA SETTING", 0x22: "WRITE MODE",
-    0x23: "UNDERVOLTAGE", 0x24: "PARAMETER PROCESS",
-}  # fmt: skip
+    0x01: "Function code error",
+    0x02: "Register number error",
+    0x03: "Word quantity error",
+    0x21: "Data setting error",
+    0x22: "Write mode error",
+    0x23: "DC bus undervoltage write error",
+    0x24: "Write during parameter processing",
+}
+"""J1000, page 231."""
 FAULTS = {
-    0x02: "UNDERVOLTAGE", 0x03: "CONTROL", 0x05: "SHORT CIRCUIT", 0x06: "GROUND FAULT", 0x07: "OVERCURRENT",
-    0x08: "OVERVOLTAGE", 0x09: "OVERHEAT", 0x0A: "OVERHEAT 1", 0x0B: "MOTOR OVERLOAD", 0x0C: "DRIVE OVERLOAD",
-    0x0D: "OVERTORQUE 1", 0x0E: "OVERTORQUE 2", 0x0F: "BRAKING TRANSISTOR", 0x10: "BRAKING RESISTOR",
-    0x11: "EXTERNAL FAULT 3", 0x12: "EXTERNAL FAULT 4", 0x13: "EXTERNAL FAULT 5", 0x14: "EXTERNAL FAULT 6",
-    0x15: "EXTERNAL FAULT 7", 0x16: "EXTERNAL FAULT 8", 0x18: "OVERSPEED", 0x21: "COMMUNICATION",
+    0x02: "DC bus undervoltage", 0x03: "Control power supply undervoltage", 0x05: "Output short circuit",
+    0x06: "Ground fault", 0x07: "Overcurrent", 0x08: "Overvoltage", 0x09: "Heatsink overheat",
+    0x0A: "Heatsink overheat 1", 0x0B: "Motor overload", 0x0C: "Drive overload", 0x0D: "Overtorque 1",
+    0x0E: "Overtorque 2", 0x0F: "Braking transistor fault", 0x10: "Braking resistor overheat",
+    0x11: "External fault 3", 0x12: "External fault 4", 0x13: "External fault 5", 0x14: "External fault 6",
+    0x15: "External fault 7", 0x16: "External fault 8", 0x18: "Overspeed",
+    0x21: "MEMOBUS/Modbus communication error",
 }  # fmt: skip
-"""SN300G5, table of fault numbers."""
+"""SN300G5, table of fault numbers, in the words of the A1000 where page 561 has one."""
 LIMITS = {"read_words": 16, "write_words": 16}
 WATCHDOG = None

@@ -9,7 +9,7 @@ PINS = {"ManualChecked"}
 BRIEF = (
     "not known",
     "b1-01 = 2, b1-02 = 2",
-    "(H5-04 0 = Ramp to stop) the motor stops",
+    "what H5-04 says",
     "FaultReset",
     "22 codes",
     "2500 in 0002H",
