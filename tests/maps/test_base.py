@@ -71,6 +71,17 @@ faults: {source: page 9}
     assert [code.name for code in best.faults.codes] == ["Overcurrent"]
 
 
+@pytest.mark.parametrize(("more", "rung"), [("", "sister"), ("documents: [{id: newer, trust: read}]", "read")])
+def test_what_was_read_of_the_base_was_not_read_of_this_drive(tmp_path: Path, more: str, rung: str) -> None:
+    newer = "documents: [{id: newer, title: Another edition, publisher: Acme, trust: read}]\nid_forms:"
+    base = BASE.replace("id_forms:", newer, 1).replace(
+        "source: table 2}]  # what", "source: table 2, document: newer}]  # what", 1
+    )
+    best = load(write(tmp_path, more, base))
+    assert best.operation.status[0].document == "newer"
+    assert {one.id: one.trust for one in best.documents} == {"newer": rung, "acme": "sister"}
+
+
 def test_what_was_printed_in_the_base_goes_with_its_source(tmp_path: Path) -> None:
     source = "source: table 2, rung: derived, rule: by the table, printed: [bit 0]"
     base = BASE.replace("equals: 1}], source: table 2}", f"equals: 1}}], {source}}}")

@@ -67,7 +67,15 @@ def _documents(base: Entries, file: Path, sister: Drive) -> tuple[Scalar, Node]:
     said |= {"edition": sister.manual.edition} if sister.manual.edition else {}
     said |= {"trust": "transcribed" if sister.manual.second_hand else "sister"}
     row = Entries({key: _word(key, text, at) for key, text in said.items()}, at)
-    return Scalar("documents", plain=True, at=at), Items((*_rows(base), row), at)
+    return Scalar("documents", plain=True, at=at), Items((*(_of_a_sister(one) for one in _rows(base)), row), at)
+
+
+def _of_a_sister(document: Node) -> Node:
+    """What was read of the base's drive was read of a sister's, unless the map itself says so of the document."""
+    if not isinstance(document, Entries) or "read" not in told("trust", document):
+        return document
+    key, old = document.entries["trust"]
+    return Entries(document.entries | {"trust": (key, Scalar("sister", plain=True, at=old.at))}, document.at)
 
 
 def _rows(node: Entries) -> tuple[Node, ...]:
