@@ -111,6 +111,7 @@ PREPARED = {
     "V20 maximum_request": (Habits(), {15: 5000}),
     "FC51 read_request": (Habits(), {0x0D5C: 3}),
     "FC51 maximum_request": (Habits(), {0x0BD6: 50000}),
+    "FC102 maximum_request": (Habits(), {0x0BD6: 50000}),
 }
 """What the drives of the manuals' examples had in their registers."""
 
