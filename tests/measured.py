@@ -14,3 +14,10 @@ def put(page: Path, lines: list[str]) -> None:
     if count != 1:
         raise ValueError(f"{page} has {count} places for what was measured")
     page.write_text(text, encoding="utf-8")
+
+
+def rows(page: Path) -> dict[str, str]:
+    """The lines between the marks of a page, by their first cells."""
+    found = MARKED.search(page.read_text("utf-8"))
+    lines = found[0].splitlines() if found else []
+    return {line.strip("| ").partition(" | ")[0]: line for line in lines if line.startswith("|")}

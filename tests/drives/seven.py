@@ -1,9 +1,11 @@
 """Drives of each family at its best bit rate: refresh, stops, share of the wire.
 
-`python -m tests.drives.seven` writes the tables of `docs/measured/drives.md` and `docs/stop.md`, in half an hour.
+`python -m tests.drives.seven` writes the tables of `docs/measured/drives.md` and `docs/stop.md`, in half a minute
+per family; `python -m tests.drives.seven V20 PF4` writes the rows of these, and leaves the others.
 """
 
-from collections.abc import Iterator
+import sys
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path
@@ -133,33 +135,52 @@ def _stops(bench: DriveBench, register: int, stops: int, chance: Random) -> Iter
         asked = (_asked(each, at + 1, register) for each in bench.run(2000))
         sent = next(each for each in asked if each is not None)
         yield sent - pressed
-        bench.run(8000)
+        _until(bench, at, running=False)
         bench.set(**{f"Run{at}": True})
-        bench.run(6000)
+        _until(bench, at, running=True)
 
 
-def table() -> Iterator[str]:
-    """The table, as Markdown."""
-    yield "| seven drives | refresh | one stop, mean and most | `StopAloneMs` | `WorstStopMs` | wire in use |"
-    yield "|---|---:|---:|---:|---:|---:|"
-    for drive, rate, keeps, name in _each():
-        got = measure(drive, rate, keeps=keeps)
-        yield (
-            f"| {name} | {got.refresh:.0f} ms | {got.stop_mean:.0f}, {got.stop_most:.0f} ms | {got.alone} ms |"
-            f" {got.worst} ms | {got.load} % |"
-        )
+def _until(bench: DriveBench, at: int, *, running: bool, most_ms: int = 10_000) -> None:
+    """Let time pass until a motor runs, or stands."""
+    for _ in range(0, most_ms, 100):
+        if bench.block[f"Drive{at}.Running"] is running:
+            return
+        bench.run(100)
+    raise AssertionError(f"drive {at} has not come to Running = {running}")
 
 
-def stop_table() -> Iterator[str]:
-    """How late a stop can be, by the number of drives, as Markdown."""
-    counts = (1, 2, 4, 6, 8)
-    yield f"| one family on the line | {' | '.join(f'{count} drive' + 's' * (count > 1) for count in counts)} |"
-    yield f"|---|{'---:|' * len(counts)}"
-    for drive, rate, keeps, name in _each():
-        worst = [promised(drive, rate, count, keeps=keeps)[1] for count in counts]
-        yield f"| {name} | {' | '.join(f'{each} ms' for each in worst)} |"
+def _row(drive: Drive, rate: int, keeps: bool, name: str) -> str:
+    got = measure(drive, rate, keeps=keeps)
+    return (
+        f"| {name} | {got.refresh:.0f} ms | {got.stop_mean:.0f}, {got.stop_most:.0f} ms | {got.alone} ms |"
+        f" {got.worst} ms | {got.load} % |"
+    )
+
+
+COUNTS = (1, 2, 4, 6, 8)
+
+
+def _stop_row(drive: Drive, rate: int, keeps: bool, name: str) -> str:
+    worst = [promised(drive, rate, count, keeps=keeps)[1] for count in COUNTS]
+    return f"| {name} | {' | '.join(f'{each} ms' for each in worst)} |"
+
+
+def write(page: Path, row: Callable[[Drive, int, bool, str], str], head: list[str], only: list[str]) -> None:
+    """Measure the rows of these families, all if there are none, and leave those of the others as they are."""
+    had = measured.rows(page)
+    lines = [
+        had[name] if only and drive.prefix not in only else row(drive, rate, keeps, name)
+        for drive, rate, keeps, name in _each()
+    ]
+    measured.put(page, [*head, *lines])
 
 
 if __name__ == "__main__":
-    measured.put(DOCS / "stop.md", list(stop_table()))
-    measured.put(DOCS / "measured" / "drives.md", list(table()))
+    each_count = " | ".join(f"{count} drive{'s' * (count > 1)}" for count in COUNTS)
+    head = [f"| one family on the line | {each_count} |", f"|---|{'---:|' * len(COUNTS)}"]
+    write(DOCS / "stop.md", _stop_row, head, sys.argv[1:])
+    head = [
+        "| seven drives | refresh | one stop, mean and most | `StopAloneMs` | `WorstStopMs` | wire in use |",
+        "|---|---:|---:|---:|---:|---:|",
+    ]
+    write(DOCS / "measured" / "drives.md", _row, head, sys.argv[1:])
