@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import pytest
 from tests.shapes import shapes
+from tests.shipped import sisters
 from tests.simulator.talk import MAPS
 
 from driveblocks.bench.simulator.face import Situation, situations
@@ -43,7 +44,7 @@ def forced(drive: Drive, name: str | None) -> set[str]:
     return {shows for shows, any_ in by_it.items() if any(holds(one, {state.register: state.equals}) for one in any_)}
 
 
-WAITING = {"ATV312": {"switch_on_disabled"}}
+WAITING = sisters({"ATV312": {"switch_on_disabled"}})
 """The state of a drive after power-up, where its map names it."""
 
 
