@@ -8,6 +8,7 @@ from click.testing import CliRunner, Result
 from driveblocks.cli import app
 from driveblocks.maps.form import SPACES
 from driveblocks.maps.load import load
+from driveblocks.maps.problem import Refused
 from driveblocks.maps.table import MOST, Reading, TableError, read
 
 SKELETON = Path(__file__).parents[2] / "generator/driveblocks/maps/skeleton.yaml"
@@ -16,7 +17,7 @@ HEX = Reading(addresses="hex")
 NOTHING_SAID = Reading()
 ASSUMED = (
     "no column names the table of Modbus: their section says it, by `space`; "
-    "no column gives the type of a value: all have 16 bits without a sign"
+    "no column gives the type of a value: none has a sign, and one of one register has 16 bits"
 )
 UNDERSTOOD = {
     "P1;2000H;Speed;Hz;0.01;R/W":
@@ -222,17 +223,113 @@ def test_numbers_of_registers_name_their_table() -> None:
         read(text, "t.csv", NOTHING_SAID)
 
 
-def test_what_is_not_of_16_bits_is_left_out() -> None:
-    lines = ("0x01,A,INT16,1", "0x02,B,uint16,1", "0x03,C,UINT32,2", "0x05,D,float,", "0x07,E,U16,2", "0x09,F,-,1")
+def test_what_has_neither_16_nor_32_bits_is_left_out() -> None:
+    lines = ("0x01,A,INT16,1", "0x02,B,uint16,1", "0x03,C,UINT64,4", "0x05,D,float,", "0x07,E,U16,2", "0x09,F,-,1")
     text = "\n".join(("Address,Name,Data type,Count", *lines))
     made = read(text, "t.csv", NOTHING_SAID)
     assert made.rows == ["{address: 0001H, name: A, signed: true}", "{address: 0002H, name: B}"]
     assert [each.partition(" of a")[0] for each in made.left] == [
-        "t.csv:4:1: `UINT32` is no type",
+        "t.csv:4:1: `UINT64` is no type",
         "t.csv:5:1: `float` is no type",
-        "t.csv:6:1: `2` is no size",
+        "t.csv:6:1: address, type and size say different numbers of registers",
         "t.csv:7:1: `` is no type",
     ]
+
+
+@pytest.mark.parametrize(
+    ("text", "row"),
+    [
+        ("Register,Name\n40103-40104,Energy", "{address: 0066H-0067H, name: Energy, words: 2}"),
+        ("Register,Name\n400103-400104,Energy", "{address: 0066H-0067H, name: Energy, words: 2}"),
+        ("Register,Name,Type,Size\n300103 – 300104,A,u32,2", "{address: 0066H-0067H, space: input, name: A, words: 2}"),
+        ("Register,Name,Type\n40103,A,INT32", "{address: 0066H-0067H, name: A, signed: true, words: 2}"),
+        ("Register,Name,Size\n40103,Energy,2", "{address: 0066H-0067H, name: Energy, words: 2}"),
+    ],
+)
+def test_a_value_of_32_bits_is_two_registers_whose_order_must_be_said(text: str, row: str) -> None:
+    how = Reading(addresses="4xxxx")
+    assert refused(text, how) == ["t.csv:2:1: which word of a value of 32 bits comes first; say --words high or low"]
+    assert read(text, "t.csv", how._replace(order="high")).rows == [row]
+    low = row.replace("words: 2", "words: 2, order: low_first")
+    assert read(text, "t.csv", how._replace(order="low")).rows == [low]
+
+
+@pytest.mark.parametrize(
+    "said", ["40103-40105", "40104-40103", "40103-104", "40103-30104", "40103-40104-40105", "40103-", "465536-465537"]
+)
+def test_what_are_no_two_registers_is_left_out(said: str) -> None:
+    made = read(f"Register,Name\n40001,Speed\n{said},Energy\n", "t.csv", Reading(addresses="4xxxx", order="high"))
+    assert made.left == [f"t.csv:3:1: `{said}` is no 4xxxx address of one register"]
+
+
+def test_a_value_of_32_bits_is_in_the_way_of_what_is_at_its_second_register() -> None:
+    how = Reading(addresses="hex", order="high")
+    made = read("Address,Name\n1,Speed\n2-3,Energy\n3,Heat\n", "t.csv", how)
+    assert made.left == ["t.csv:3:1: line 4 has 0003H, too", "t.csv:4:1: line 3 has 0003H, too"]
+    assert read("Address,Name,Type\nFFFF,Energy,u32\n", "t.csv", how).left == ["t.csv:2:1: no register follows FFFFH"]
+
+
+def test_numbers_of_six_digits_need_no_option() -> None:
+    text = "Register,Name\n400103,Speed\n300001,Heat\n"
+    assert read(text, "t.csv", NOTHING_SAID).rows == [
+        "{address: 0066H, name: Speed}",
+        "{address: 0000H, space: input, name: Heat}",
+    ]
+    assert "no address shows" in refused(f"{text}40104,Torque\n")[0], "40104 may be a coil, 040104"
+
+
+@pytest.mark.parametrize(
+    ("said", "row"),
+    [
+        *[(said, "{address: 0026H, name: Speed}") for said in ("0x0026 (38)", "38 (0x0026)", "26H (38)", "0026H(38)")],
+        *[(said, "{address: 0066H, name: Speed}") for said in ("0x66 (40103)", "400103 (66H)")],
+        ("0x66 (30103)", "{address: 0066H, space: input, name: Speed}"),
+        ("0x0026-0x0027 (38-39)", "{address: 0026H-0027H, name: Speed, words: 2}"),
+    ],
+)
+def test_an_address_in_two_ways_is_one_where_both_agree(said: str, row: str) -> None:
+    assert read(f"Address,Name\n{said},Speed\n", "t.csv", Reading(order="high")).rows == [row]
+
+
+@pytest.mark.parametrize(
+    "said", ["0x0026 (39)", "38 (39)", "38 (38)", "0x26 (26H)", "0x0026 (speed)", "0x0026-0x0027 (38)"]
+)
+def test_an_address_in_two_ways_that_do_not_agree_is_none(said: str) -> None:
+    made = read(f"Address,Name\n0x01,Heat\n{said},Speed\n", "t.csv", NOTHING_SAID)
+    assert made.left == [f"t.csv:3:1: `{said}` names two addresses, or none"]
+
+
+def test_a_plain_range_beside_hexadecimal_addresses_is_asked_for() -> None:
+    assert "`21-22` may be decimal, " in refused("Address,Name\n0x01,Heat\n21-22,Speed\n")[0]
+
+
+@pytest.mark.parametrize(
+    ("unit", "scale", "row"),
+    [
+        ("0.01 Hz", "", "unit: Hz, scale: {factor: 0.01, source: the table}"),
+        ("0.01Hz", "0.01", "unit: Hz, scale: {factor: 0.01, source: the table}"),
+        ("0.01 Hz", "0.01 Hz", "unit: Hz, scale: {factor: 0.01, source: the table}"),
+        ("0.01 Hz", "0.1", None),
+        ("Hz", "x0.01", "unit: Hz, scale: {factor: 0.01, source: the table}"),
+        ("Hz", "/10", "unit: Hz, scale: {factor: 0.1, source: the table}"),
+    ],
+)
+def test_a_unit_with_its_factor_agrees_with_the_factor_beside_it(unit: str, scale: str, row: str | None) -> None:
+    made = read(f"Address,Name,Unit,Scale\n0x01,Speed,{unit},{scale}\n", "t.csv", NOTHING_SAID)
+    assert made.rows == ([f"{{address: 0001H, name: Speed, {row}}}"] if row else [])
+    assert made.left == ([] if row else [f"t.csv:2:1: `{unit}` and `{scale}` are two factors"])
+
+
+def test_a_unit_in_the_name_is_asked_for() -> None:
+    text = "Address,Name,Factor\n0x01,Output speed (rpm),0.1\n0x02,Gain [x],\n"
+    asked = "`(rpm)` in the name may be the unit"
+    assert refused(text) == [
+        f"t.csv:2:1: {asked}; say --column unit=..., the head of the names, or --column unit= for none"
+    ]
+    made = read(text, "t.csv", Reading({"unit": "Name"}))
+    assert made.rows[0].startswith("{address: 0001H, name: Output speed, unit: r/min, scale: {factor: 0.1,")
+    assert made.rows[1] == '{address: 0002H, name: "Gain [x]"}'
+    assert read(text, "t.csv", Reading({"unit": ""})).left == ["t.csv:2:1: a factor without a unit"]
 
 
 def test_a_sign_that_only_a_range_shows_is_not_lost() -> None:
@@ -309,6 +406,75 @@ def test_all_rows_are_good_in_a_map(tmp_path: Path) -> None:
     assert known.register_at(0x0022) is not None
     heat = known.register_at(SPACES["input"] + 0x30)
     assert (heat and heat.signed, known.register_at(SPACES["coil"] + 0x31) is None) == (True, False)
+
+
+TEMPLATE = """{
+  "device_type": "acme",
+  "device": {
+    "channels": [
+      {"name": "Output frequency", "reg_type": "input", "address": 24, "scale": 0.01, "units": "Hz", "type": "value"},
+      {"name": "Torque", "address": "0x2106", "format": "s16", "scale": 0.1, "units": "%", "readonly": true},
+      {"name": "Energy (kWh)", "address": "16129", "format": "u32", "scale": 0.1, "word_order": "little_endian"},
+      {"name": "Hours", "address": 600, "format": "s32", "units": "h", "readonly": true},
+      {"name": "Run", "reg_type": "coil", "address": 2, "type": "switch"},
+      {"name": "Bit", "address": "2100:0:1", "readonly": true},
+      {"name": "Ratio", "address": 7, "format": "float"},
+      {"name": "Heat", "address": 8, "units": "deg C", "scale": 1, "offset": -40},
+      {"name": "Swapped", "address": 9, "byte_order": "little_endian"},
+      {"name": "Speed", "reg_type": "holding_single", "address": 10, "write_address": 11}
+    ]
+  }
+}
+"""
+
+
+def test_a_template_of_wb_mqtt_serial_is_a_table() -> None:
+    asked = (
+        "`(kWh)` in the name may be the unit; say --column unit=..., the head of the names, or --column unit= for none"
+    )
+    assert refused(TEMPLATE) == [f"t.csv:7:1: {asked}"]
+    made = read(TEMPLATE, "t.json", Reading({"unit": "name"}))
+    assert made.rows == [
+        "{address: 0018H, space: input, name: Output frequency, access: r, unit: Hz, "
+        "scale: {factor: 0.01, source: the table}}",
+        '{address: 2106H, name: Torque, access: r, signed: true, unit: "%", scale: {factor: 0.1, source: the table}}',
+        "{address: 3F01H-3F02H, name: Energy, access: rw, words: 2, order: low_first, unit: kWh, "
+        "scale: {factor: 0.1, source: the table}}",
+        "{address: 0258H-0259H, name: Hours, access: r, signed: true, words: 2, unit: h}",
+        "{address: 0002H, space: coil, name: Run, access: rw}",
+        "{address: 000AH, name: Speed, access: r}",
+        "{address: 000BH, name: Speed, access: w}",
+    ]
+    assert made.left == [
+        "t.json:10:1: `2100:0:1` is no decimal address of one register",
+        "t.json:11:1: `float` is no type of a value of 16 or 32 bits",
+        "t.json:12:1: `1 + -40` is no factor",
+        "t.json:13:1: `u16 little_endian` is no type of a value of 16 or 32 bits",
+    ]
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ('{"device": {\n "channels": [}}', "t.json:2:15: this is no JSON"),
+        ('{"device": {"channels": [{{ in_num }}]}}', "t.json:1:27: this is no JSON"),
+        ('{"device": {}}', "t.json:1:1: no channels"),
+        ('{"device": {"channels": 5}}', "t.json:1:1: no channels"),
+        ('{"device": "channels"}', "t.json:1:1: no channels"),
+        ("{" * 5000, "t.json:1:2: this is no JSON"),
+        ('{"a":' * 50000, "t.json:1:1: this is no JSON"),
+    ],
+)
+def test_what_is_no_template_is_refused_with_its_place(text: str, said: str) -> None:
+    with pytest.raises(Refused) as caught:
+        read(text, "t.json", NOTHING_SAID)
+    assert str(caught.value).startswith(said)
+
+
+def test_channels_that_are_none_are_left_out() -> None:
+    made = read('{"device": {"channels": [5, null, {"name": null}, []]}}', "t.json", NOTHING_SAID)
+    assert made.rows == []
+    assert len(made.left) == len(("5", "null", "no name", "[]"))
 
 
 def run(*arguments: str, given: str = "") -> Result:

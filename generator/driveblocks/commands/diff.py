@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 @click.option("--changelog", is_flag=True, help="Print Markdown; of two versions, changes of words alone are counted.")
 @click.option("--json", is_flag=True, help="Print everything as JSON.")
 def run(old: str, new: str, changelog: bool, json: bool) -> None:
-    """List what differs between two versions of a map, or what a swap of two drives takes.
+    """Tell two versions of a map apart, or two families.
 
     Of two families, what changes at the machine, side by side: wires, the line, the keypad, pins of the block, what the
     drive can do and does by itself, faults. Of two versions of a map, blocks and facts: what no longer compiles (a pin

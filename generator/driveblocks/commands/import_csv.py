@@ -10,20 +10,26 @@ from driveblocks.commands import FILE, refuse, write
 from structured_text import files
 from structured_text.visible import file_name
 
-COLUMN = "address, id, name, unit, scale, access, table, type or size"
+COLUMN = "address, id, name, unit, scale, access, table, type, size or order"
 
 
 @click.command()
-@click.argument("file", metavar="FILE", help="A table as CSV, TSV or pasted text; `-` reads standard input.")
+@click.argument(
+    "file",
+    metavar="FILE",
+    help="A table as CSV, TSV or pasted text, or a JSON template of wb-mqtt-serial; `-` reads standard input.",
+)
 @click.option("--column", "columns", multiple=True, metavar="WHAT=HEAD", help=f"The head of a column that is {COLUMN}.")
 @click.option("--addresses", type=click.Choice(("hex", "decimal", "4xxxx")), help="How addresses are written.")
 @click.option("--factor", type=click.Choice(("multiply", "divide")), help="What a factor does to a word that is read.")
+@click.option("--words", type=click.Choice(("high", "low")), help="Which word of a value of 32 bits comes first.")
 @click.option("-o", "output", type=FILE, metavar="ROWS.yaml", help="A new file for the rows; else they are printed.")
-def run(
+def run(  # noqa: PLR0913, PLR0917 - one for each option
     file: str,
     columns: tuple[str, ...],
     addresses: str | None,
     factor: Literal["multiply", "divide"] | None,
+    words: Literal["high", "low"] | None,
     output: Path | None,
 ) -> None:
     """Turn a register table into rows of a map.
@@ -41,7 +47,7 @@ def run(
         raise click.BadParameter(f"`{min(strange)}` is none of {COLUMN}", param_hint="--column")
     try:
         text = sys.stdin.read() if file == "-" else files.text(Path(file))
-        how = table.Reading(named, addresses, factor)
+        how = table.Reading(named, addresses, factor, order=words)
         made = table.read(text, "the input" if file == "-" else file_name(file), how)
     except UnicodeDecodeError:
         refuse("the input cannot be read: it is not UTF-8; save it as such")

@@ -8,6 +8,8 @@ from driveblocks.maps.model import Space, Unit
 
 ADDRESSES = ("hex", "decimal", "4xxxx")
 Way = Literal["multiply", "divide"]
+Order = Literal["high", "low"]
+"""Which word of a value of 32 bits comes first."""
 NOTHING = ("", "-", "/", "n/a")
 
 _MARKED = re.compile(r"(?:0x|16#|h')([0-9a-f]{1,4})'?|([0-9a-f]{1,4})h", re.IGNORECASE)
@@ -34,16 +36,61 @@ _CODES: dict[Space, tuple[int, ...]] = {
 """Functions, of which no list of decimal numbers has 10: there it is 10H."""
 _REGIONS: dict[str, Space] = {"0": "coil", "1": "discrete", "3": "input", "4": "holding"}
 _WIDTHS = {
-    **dict.fromkeys(("1", "16bit", "u16", "ui16", "uint16", "uint16t", "ushort", "word", "uword"), False),
-    **dict.fromkeys(("s16", "i16", "int16", "int16t", "sint16", "short16", "sword"), True),
+    **dict.fromkeys(("1", "16bit", "u16", "ui16", "uint16", "uint16t", "ushort", "word", "uword"), (1, False)),
+    **dict.fromkeys(("s16", "i16", "int16", "int16t", "sint16", "short16", "sword"), (1, True)),
+    **dict.fromkeys(("2", "32bit", "u32", "ui32", "uint32", "uint32t", "udint", "dword", "udword"), (2, False)),
+    **dict.fromkeys(("s32", "i32", "int32", "int32t", "sint32", "dint", "sdword"), (2, True)),
 }
-"""What a register of 16 bits is called -> whether its value has a sign."""
+"""What values are called -> their registers, and whether they have a sign."""
+_TO = re.compile(" ?[-–~] ?")
+_TWICE = re.compile(r"([^()]+?) ?\(([^()]+)\)")
+"""An address in two ways: 0x0026 (38)."""
+_SIX = re.compile("[134][0-9]{5}", re.ASCII)
+"""A number of a register that can be nothing else: an address has at most five digits."""
 _FACTOR = re.compile(r"([x×*/÷]?) ?([0-9]{1,9}(?:[.,][0-9]{1,9})?)(?: ?/ ?([0-9]{1,9}))? ?([^0-9].*)?")
 
 
 def marked(said: str) -> bool:
-    """Whether a number is hexadecimal by a mark or by a letter."""
-    return bool(_MARKED.fullmatch(said) or re.fullmatch("[0-9]*[a-f][0-9a-f]*", said, re.IGNORECASE))
+    """Whether a number, or one of several, is hexadecimal by a mark or by a letter."""
+    each = (one for one in re.split("[-–~() ]+", said) if one)
+    return any(_MARKED.fullmatch(one) or re.fullmatch("[0-9]*[a-f][0-9a-f]*", one, re.IGNORECASE) for one in each)
+
+
+def plain(said: str) -> bool:
+    """Whether a cell has decimal digits alone, as one address or as a first and a last."""
+    return all(one.isascii() and one.isdigit() for one in _TO.split(said))
+
+
+def numbers(said: str) -> bool:
+    """Whether a cell has numbers of registers, of six digits, that name their table."""
+    return all(_SIX.fullmatch(one) for one in _TO.split(said))
+
+
+class Place(NamedTuple):
+    """Where a value is: its first register, how many it has, and its table where the number names that."""
+
+    first: int
+    words: int
+    space: Space | None
+
+
+def place(said: str, form: str) -> Place | None:
+    """One register, or two that follow each other; None for any other, and for two ways that do not agree."""
+    twice = _TWICE.fullmatch(said)
+    if twice is None:
+        return _span(said, form)
+    ways = [("hex",) if marked(one) else ("decimal", "4xxxx") for one in twice.groups()]
+    one, two = ([_span(each, way) for way in some] for each, some in zip(twice.groups(), ways, strict=True))
+    agreed = [(a, b) for a in one for b in two if a and b and a[:2] == b[:2] and ways[0] != ways[1]]
+    return next((a._replace(space=a.space or b.space) for a, b in agreed), None)
+
+
+def _span(said: str, form: str) -> Place | None:
+    ends = [address(one, form) for one in _TO.split(said)]
+    if len(ends) > 2 or not all(ends):
+        return None
+    (first, space), (last, other) = ends[0] or (0, None), ends[-1] or (0, None)
+    return Place(first, len(ends), space) if (last - first, other) == (len(ends) - 1, space) else None
 
 
 def address(said: str, form: str) -> tuple[int, Space | None] | None:
@@ -81,8 +128,8 @@ def _code(word: str) -> int:
     return int(match[1] or match[2], 16) if match else 0
 
 
-def signed(said: str) -> bool | None:
-    """Whether a value of 16 bits has a sign, by its type or its number of registers; None: it is something else."""
+def width(said: str) -> tuple[int, bool] | None:
+    """How many registers a value has and whether it has a sign, by its type or its size; None: it is something else."""
     return _WIDTHS.get("".join(re.findall(r"[a-z0-9]+", said.lower())))
 
 
@@ -95,6 +142,12 @@ def unit(said: str) -> Unit | None:
     """A unit of a map; of a single letter the case counts: H is no hour."""
     found = _UNITS.get(said.lower())
     return found if len(said) > 1 or found == said else None
+
+
+def named(said: str) -> tuple[str, str]:
+    """A name without the unit in brackets at its end, and the unit: Output frequency (Hz)."""
+    match = re.fullmatch(r"(.*\S) *[(\[]([^()\[\]]+)[)\]]", said)
+    return (match[1], match[2]) if match and unit(match[2]) else (said, "")
 
 
 class Factor(NamedTuple):

@@ -11,7 +11,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
-from driveblocks.maps import cell, form
+from driveblocks.maps import cell, form, template
 from driveblocks.maps.cell import NOTHING, Way
 from driveblocks.maps.factor import doubt
 from driveblocks.maps.model import Unit
@@ -33,6 +33,7 @@ COLUMNS = {
     "table": ("table", "space", "fc", "register type", "reg type", "object type"),
     "type": ("type", "datatype", "format", "size of variable", "类型", "数据类型"),
     "size": ("size", "length", "len", "count", "words", "quantity", "长度"),
+    "order": ("word order",),
 }  # fmt: skip
 """What a row is made of -> what the heads of its columns are called, as a whole or by their last word."""
 MUST = ("address", "name")
@@ -62,6 +63,8 @@ class Reading(NamedTuple):
     """What is done with a word by the factor that is given."""
     codes: bool = False
     """Whether functions name the table of Modbus."""
+    order: cell.Order | None = None
+    """Which word of a value of 32 bits comes first."""
 
 
 @dataclass
@@ -81,8 +84,14 @@ def few(lines: Sequence[str]) -> list[str]:
 
 
 def read(text: str, name: str, how: Reading) -> Table:
-    """The rows of a table whose first line names its columns. Raises TableError."""
-    lines = [(number, cells) for number, cells in _lines(text, name) if any(cells)]
+    """The rows of a table whose first line names its columns, or of a template of wb-mqtt-serial. Raises Refused."""
+    if template.is_template(text):
+        how = how._replace(addresses=how.addresses or "decimal", way=how.way or "multiply")
+        return _read(template.lines(text, name), name, how)
+    return _read([(number, cells) for number, cells in _lines(text, name) if any(cells)], name, how)
+
+
+def _read(lines: Sequence[tuple[int, list[str]]], name: str, how: Reading) -> Table:
     if len(lines) < 2:
         raise TableError(f"{name}:1:1: no table; the first line names the columns, each line after it is a register")
     first, heads = lines[0]
@@ -93,7 +102,7 @@ def read(text: str, name: str, how: Reading) -> Table:
     asked += [] if "table" in how.columns or "table" in places else _tables(rows)
     scale, table = (heads[places[what]].lower() if what in places else "" for what in ("scale", "table"))
     how = how._replace(
-        addresses=how.addresses or ("hex" if any(cell.marked(row.said["address"]) for row in rows) else "decimal"),
+        addresses=how.addresses or _written(rows),
         way=how.way or _WAYS.get(scale),
         codes=bool(re.search("fc|fun", table)),
     )
@@ -109,10 +118,11 @@ def _table(name: str, rows: "Sequence[_Row]", places: Mapping[str, int], how: Re
     """Rows and what was left out; of rows of one address none is known to be the right one."""
     made, lines = Table(), dict[int, list[int]]()
     for row in rows:
-        lines.setdefault(row.address, []).append(row.line)
+        for at in row.addresses:
+            lines.setdefault(at, []).append(row.line)
     for row in rows:
-        twins = [] if row.wrong else [each for each in lines[row.address][:2] if each != row.line]
-        row.wrong += [f"line {each} has {form.address_text(row.address)}, too" for each in twins[:1]]
+        twins = [(each, at) for at in row.addresses for each in lines[at][:2] if each != row.line and not row.wrong]
+        row.wrong += [f"line {each} has {form.address_text(at)}, too" for each, at in twins[:1]]
         if row.wrong:
             made.left.append(f"{name}:{row.line}:1: {'; '.join(row.wrong)}")
         else:
@@ -120,7 +130,7 @@ def _table(name: str, rows: "Sequence[_Row]", places: Mapping[str, int], how: Re
     if "table" not in places and how.addresses != "4xxxx":
         made.assumed.append("no column names the table of Modbus: their section says it, by `space`")
     if "type" not in places:
-        made.assumed.append("no column gives the type of a value: all have 16 bits without a sign")
+        made.assumed.append("no column gives the type of a value: none has a sign, and one of one register has 16 bits")
     return made
 
 
@@ -131,21 +141,25 @@ class _Row:
         self.line = line
         self.said = {what: cells[place] if place < len(cells) else "" for what, place in places.items()}
         self.others = [each for at, each in enumerate(cells) if at not in places.values()]
-        self.address = -1
+        self.addresses = range(0)
         self.found: dict[str, str] = {}
         self.wrong: list[str] = []
         self.asked: list[str] = []
 
     def read(self, how: Reading) -> None:
+        if _in_names(how.columns):
+            self.said["name"], unit = cell.named(self.said["name"])
+            self.said["unit"] = self._get("unit") or unit
         self._address(how)
         self._name()
         self._access()
-        self._width()
-        self._scale(how.way)
+        said = self._get("order").lower()
+        self._width("high" if said == "high" else "low" if said == "low" else how.order)
+        self._scale(how.way, asks="unit" not in how.columns)
 
     def loose(self) -> list[str]:
         """The cells that belong to no register: of other columns, and of a line without an address."""
-        none = all(cell.address(self.said["address"], each) is None for each in cell.ADDRESSES)
+        none = all(cell.place(self.said["address"], each) is None for each in cell.ADDRESSES)
         return [*self.others, *(self.said.values() if none else ())]
 
     def _get(self, what: str) -> str:
@@ -154,15 +168,18 @@ class _Row:
 
     def _address(self, how: Reading) -> None:
         said, table = self.said["address"], self._get("table")
-        number, own = cell.address(said, how.addresses or "") or (-1, None)
+        place = cell.place(said, how.addresses or "")
+        own = place.space if place else None
         space = cell.space(table, how.codes) if "table" in self.said else own or "holding"
-        if number < 0:
-            self.wrong.append(f"`{_shown(said)}` is no {how.addresses} address of one register")
+        if place is None:
+            what = "names two addresses, or none" if "(" in said else f"is no {how.addresses} address of one register"
+            self.wrong.append(f"`{_shown(said)}` {what}")
         elif space is None or own not in (None, space):
             self.wrong.append(f"`{_shown(table)}` names no table of Modbus{' of this address' * bool(own)}")
         else:
-            self.address = form.SPACES[space] + number
-            self.found["address"] = f"{number:04X}H"
+            first = form.SPACES[space] + place.first
+            self.addresses = range(first, first + place.words)
+            self.found["address"] = f"{place.first:04X}H"
             self.found |= {"space": space} if space != "holding" else {}
 
     def _name(self) -> None:
@@ -182,28 +199,48 @@ class _Row:
             if self.found.get("space") in ("input", "discrete") and "w" in self.found["access"]:
                 self.wrong.append(f"`{_shown(said)}`: {self.found['space']} is read only")
 
-    def _width(self) -> None:
-        bit = self.found.get("space") in _BITS
+    def _width(self, order: cell.Order | None) -> None:
+        bit, pair = self.found.get("space") in _BITS, len(self.addresses) == len(("high", "low"))
+        words = {2} if pair else set[int]()
         for what in ("type", "size"):
             said = self._get(what)
-            signed = cell.signed(said)
-            right = said.lower() in ("", "bit", "bool", "boolean", "1") if bit else signed is not None
+            kind = cell.width(said)
+            right = said.lower() in ("", "bit", "bool", "boolean", "1") if bit else kind is not None
             if said and cell.names_table(said):
                 self.asked.append(f"`{said}` names a table of Modbus; name its column by --column table=...")
             elif not right and (said or (what == "type" and what in self.said)):
-                self.wrong.append(f"`{_shown(said)}` is no {what} of {'a bit' if bit else 'a value of 16 bits'}")
-            self.found |= {"signed": "true"} if signed else {}
+                self.wrong.append(f"`{_shown(said)}` is no {what} of {'a bit' if bit else 'a value of 16 or 32 bits'}")
+            words |= {kind[0]} if kind and not bit else set()
+            self.found |= {"signed": "true"} if kind and kind[1] else {}
+        if len(words) > 1 or (bit and pair):
+            self.wrong.append("address, type and size say different numbers of registers")
+        elif words == {2} and self.addresses:
+            self._pair(order)
         below = next((each for each in self.others if re.match("-[0-9]", each)), None)
         if below and "type" not in self.said:
             self.wrong.append(f"`{_shown(below)}` is negative, and no column says how a sign is sent")
 
-    def _scale(self, way: Way | None) -> None:
+    def _pair(self, order: cell.Order | None) -> None:
+        """A value of 32 bits, in two registers."""
+        self.addresses = range(self.addresses[0], self.addresses[0] + 2)
+        self.found["address"] += f"-{self.addresses[1] & 0xFFFF:04X}H"
+        self.found["words"] = "2"
+        if not self.addresses[1] & 0xFFFF:
+            self.wrong.append("no register follows FFFFH")
+        elif order is None:
+            self.asked.append("which word of a value of 32 bits comes first; say --words high or low")
+        elif order == "low":
+            self.found["order"] = "low_first"
+
+    def _scale(self, way: Way | None, *, asks: bool) -> None:
         said, scale = self._get("unit"), self._get("scale")
-        if not scale and cell.unit(said) is None and cell.factor(said):
-            said, scale = "", said
-        unit = cell.unit(said)
-        factor = cell.factor(scale)
-        if said and self.found.get("space") in _BITS:
+        whole = None if cell.unit(said) else cell.factor(said)
+        if whole and scale and cell.factor(scale) not in (whole, whole._replace(unit="")):
+            self.wrong.append(f"`{_shown(said)}` and `{_shown(scale)}` are two factors")
+            return
+        said, scale = ("", said) if whole else (said, scale)
+        unit, factor = cell.unit(said), cell.factor(scale)
+        if self._get("unit") and self.found.get("space") in _BITS:
             self.wrong.append("one bit has no unit")
         if said and unit is None:
             self.wrong.append(f"`{_shown(said)}` is no unit of a map")
@@ -213,18 +250,21 @@ class _Row:
         if scale and (factor is None or not factor.number):
             self.wrong.append(f"`{_shown(scale)}` is no factor")
         elif factor:
-            self._factor(factor, way, unit)
+            self._factor(factor, way, unit, asks=asks)
         self.found |= {"unit": _quoted(unit)} if unit and "scale" not in self.found else {}
 
-    def _factor(self, factor: cell.Factor, way: Way | None, unit: Unit | None) -> None:
+    def _factor(self, factor: cell.Factor, way: Way | None, unit: Unit | None, *, asks: bool) -> None:
         """A factor, which has a unit and is one that a drive may have."""
-        number = factor.per_count(way)
-        if not unit and factor.number != 1:
+        number, named = factor.per_count(way), cell.named(self._get("name"))[1] if asks else ""
+        if not unit and factor.number != 1 and named:
+            ways = "say --column unit=..., the head of the names, or --column unit= for none"
+            self.asked.append(f"`({named})` in the name may be the unit; {ways}")
+        elif not unit and factor.number != 1:
             self.wrong.append("a factor without a unit")
         elif number is None:
             both = f"{factor.number} {unit} per count or {factor.number} counts per {unit}"
             self.asked.append(f"`{factor.number}` may be {both}; say --factor multiply or divide")
-        elif unit and (doubted := doubt(number, unit, 16)):
+        elif unit and (doubted := doubt(number, unit, 16 * len(self.addresses))):
             self.wrong.append(doubted[0])
         elif unit and number * 10**9 % 1:
             self.wrong.append(f"{number} has more than 9 decimals")
@@ -233,10 +273,21 @@ class _Row:
             self.found["scale"] = f"{{factor: {number.normalize():f}, source: the table}}"
 
 
+def _written(rows: Sequence[_Row]) -> str:
+    """How addresses are written, where that shows."""
+    said = [row.said["address"] for row in rows]
+    if any(map(cell.marked, said)):
+        return "hex"
+    plain = [one for one in said if cell.plain(one)]
+    return "4xxxx" if plain and all(map(cell.numbers, plain)) else "decimal"
+
+
 def _unclear(first: int, rows: Sequence[_Row]) -> list[str]:
     """Addresses that may be decimal or hexadecimal."""
+    if _written(rows) == "4xxxx":
+        return []
     shown = [row for row in rows if cell.marked(row.said["address"])]
-    plain = [row for row in rows if row.said["address"].isascii() and row.said["address"].isdigit()]
+    plain = [row for row in rows if cell.plain(row.said["address"])]
     if not shown:
         return [f"{first}:1: no address shows whether it is hexadecimal; say --addresses {', '.join(cell.ADDRESSES)}"]
     beside = f"and `{shown[0].said['address']}` of line {shown[0].line} is hexadecimal; say --addresses hex or decimal"
@@ -279,6 +330,8 @@ def _lines(text: str, name: str) -> Iterator[tuple[int, list[str]]]:
 def _places(place: str, heads: Sequence[str], named: Mapping[str, str]) -> dict[str, int]:
     """Which column is what. Raises TableError."""
     places, wrong = {}, []
+    if _in_names(named):
+        named = {what: head for what, head in named.items() if what != "unit"}
     free = [None if head in named.values() else _meant(head) for head in heads]
     for what in COLUMNS:
         head = named.get(what)
@@ -295,6 +348,12 @@ def _places(place: str, heads: Sequence[str], named: Mapping[str, str]) -> dict[
     if wrong:
         raise TableError("\n".join(f"{place}: {each}" for each in wrong))
     return places
+
+
+def _in_names(named: Mapping[str, str]) -> bool:
+    """Whether units are said to be in the column of the names."""
+    head = named.get("unit") or ""
+    return bool(head) and (head == named.get("name") or ("name" not in named and _meant(head) == "name"))
 
 
 def _meant(head: str) -> str | None:
