@@ -1,6 +1,7 @@
 """Every example frame of the manuals on every engine; the frames that are printed wrong are listed, not imitated."""
 
 import pytest
+from tests import families
 from tests.blocks import vectors, wire
 from tests.blocks.library import built
 from tests.shipped import drives
@@ -28,11 +29,7 @@ def test_frame_is_built_and_parsed_byte_for_byte(engine: Engine, drive: Drive, f
 
 
 PRINTED_WRONG = {
-    ("ATV312", "write_ramps_request"): "CHECKSUM",
-    ("ATV312", "write_ramps_reply"): "CHECKSUM",
-    ("CHF", "read_rtu_reply"): "CHECKSUM",
-    ("GD200A", "write_words_rtu_request"): "CHECKSUM",
-    ("GD200A", "write_words_rtu_reply"): "CHECKSUM",
+    (prefix, id_): said for prefix, wrong in families.own("PRINTED_WRONG").items() for id_, said in wrong.items()
 }
 """Frames whose printed bytes are no frame, and what the blocks say of them."""
 

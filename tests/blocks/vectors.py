@@ -79,8 +79,11 @@ def assert_quantities(blocks: Blocks, drive: Drive, frame: Frame) -> None:
         row = drive.register_at(quantity.register)
         if row is None or row.scale is None or request.means.address is None:
             continue
-        word = frame.means.values[quantity.register - request.means.address] & 0xFFFF
-        value = blocks.call(scale_name(drive, row), {"Raw": word})
+        at = quantity.register - request.means.address
+        found = [each & 0xFFFF for each in frame.means.values[at : at + (row.words or 1)]]
+        value = blocks.call(
+            scale_name(drive, row), dict(zip(("High", "Low") if row.words else ("Raw",), found, strict=True))
+        )
         assert value == stored(float(quantity.value)), (frame.id, value, quantity.value)
 
 

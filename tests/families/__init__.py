@@ -6,6 +6,7 @@ does not apply (addresses are those on the wire):
     STATUS, FACES, CHART   the status word, what it is in each situation, and its bits that follow a chart of states
     FREQUENCY, COUNTS_PER_HZ, FAULT   output frequency; register and word in trip 18
     HELD       what its registers held in the manual's examples, by the id of the request
+    PRINTED_WRONG   frames whose printed bytes are none, and what the blocks say of them
     CODES      refusals: function, address, quantity, value, read-only, running, busy
     PASSING    function that reads, and most words read and written on behalf of a person
     CONTROL    the weakest rung of what moves the motor, where that is not `read`

@@ -88,3 +88,4 @@ FUNCTIONS = [1, 3, 5, 6, 8, 11, 15, 16, 17]
 UNIT = (1, 247, None)
 WATCHDOG = ("8-03", 100, 21)
 HELD = {"maximum_request": {0x0BD6: 50000}}
+CONTROL = "in use"

@@ -1,6 +1,7 @@
-"""What pages of the MS300's manual (appendix A) and of its sisters' say, typed from them by hand; no map was read for it."""
+"""What pages of the MS300's manual (appendix A) and of its sisters' say, typed from them by hand."""
 
 CONTROL = "sister"
+ALIKE = {("fault_reset", "Reset")}
 PINS = {"ManualChecked"}
 BRIEF = (
     "not known",

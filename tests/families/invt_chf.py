@@ -31,3 +31,4 @@ HELD = {"read_ascii_request": {4: 2}}
 KEYPAD = """
 P0.04 | - | - | - | -
 """
+PRINTED_WRONG = {"read_rtu_reply": "CHECKSUM"}

@@ -3,6 +3,9 @@
 Typed from them by hand; no map was read for it. What is not here is as in the Goodrive200A.
 """
 
+from tests.families.invt_gd200a import KEYPAD, PLUG, TERMINATION
+
+__all__ = ["KEYPAD", "PLUG", "TERMINATION"]
 CONTROL = "transcribed"
 BRIEF = (
     "485+, A (+)",
@@ -56,3 +59,4 @@ LIMITS = {"read_words": 16, "write_words": 16}
 REFUSALS = [1, 2, 3, 4, 5, 6, 7, 8, 9]
 """E133, 1 to 8; page 130 of the UL edition has 9."""
 HELD = {"read_rtu_request": {4: 5000}, "read_ascii_request": {4: 5000}}
+PRINTED_WRONG = {"write_words_rtu_request": "CHECKSUM", "write_words_rtu_reply": "CHECKSUM"}

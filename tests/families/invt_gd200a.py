@@ -60,3 +60,4 @@ P14.05 | - | 0 | 0=coast 1=run 2=stop 3=any | -
 P14.06 | - | 0x00 | - | -
 """
 """Goodrive200A, V2.4, pages 34 to 45, 49, 50, 69, 76, 79 and 92 to 94."""
+PRINTED_WRONG = {"write_words_rtu_request": "CHECKSUM", "write_words_rtu_reply": "CHECKSUM"}

@@ -8,7 +8,7 @@ COUNTS_PER_HZ = 100
 FAULT = (0x8000, 18)
 CODES = (2, 4, 3, 3, 4, None, 8)
 """8001H: 2 command code, 4 invalid address, 8 being saved; none is of a value beyond its range."""
-PASSING = (3, 4, 3)
+PASSING = (3, 4, 1)
 PINS = {"FullScaleHz", "ManualChecked"}
 BRIEF = (
     "not known",

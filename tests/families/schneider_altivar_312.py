@@ -59,3 +59,4 @@ LSP | SEt- | 0.0 Hz | - | 0.1 Hz
 HSP | SEt- | bFr | - | 0.1 Hz
 """
 """Altivar 312, a list after BBV46387; numbers of BBV51701, pages 27, 35 to 40, 53 and 55; tbr and ttO of the ATV12."""
+PRINTED_WRONG = {"write_ramps_request": "CHECKSUM", "write_ramps_reply": "CHECKSUM"}

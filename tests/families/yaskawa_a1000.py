@@ -9,7 +9,7 @@ FAULT = (0x0080, 18)
 CODES = (1, 2, 3, 0x21, 0x22, 0x22, 0x24)
 """J1000, page 231: 22H is read-only, and not during run; 24H is writing during parameter processing."""
 PASSING = (3, 4, 3)
-CONTROL = "transcribed"
+CONTROL = "derived"
 PINS = {"ManualChecked"}
 BRIEF = (
     "not known",
@@ -114,3 +114,4 @@ FAULTS = {
 """SN300G5, table of fault numbers, in the words of the A1000 where page 561 has one."""
 LIMITS = {"read_words": 16, "write_words": 16}
 WATCHDOG = None
+PRINTED_WRONG = {"write_request": "CHECKSUM"}

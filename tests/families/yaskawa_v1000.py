@@ -4,7 +4,7 @@ All else is that of the A1000, which its map has as base.
 """
 
 COUNTS_PER_HZ = 100
-CONTROL = "transcribed"
+CONTROL = "derived"
 PINS = {"ManualChecked"}
 BRIEF = (
     "not known",
@@ -48,3 +48,4 @@ COMMANDS = {
 REFERENCE = "0002 frequency"
 UNIT = (1, 32, 31)
 """v1000.json."""
+PRINTED_WRONG = {"write_request": "CHECKSUM"}
