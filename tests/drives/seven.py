@@ -169,10 +169,10 @@ def write(page: Path, row: Callable[[Drive, int, bool, str], str], head: list[st
     """Measure the rows of these families, all if there are none, and leave those of the others as they are."""
     had = measured.rows(page)
     lines = [
-        had[name] if only and drive.prefix not in only else row(drive, rate, keeps, name)
+        row(drive, rate, keeps, name) if not only or drive.prefix in only else had.get(name, "")
         for drive, rate, keeps, name in _each()
     ]
-    measured.put(page, [*head, *lines])
+    measured.put(page, [*head, *filter(None, lines)])
 
 
 if __name__ == "__main__":

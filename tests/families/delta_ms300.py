@@ -1,7 +1,6 @@
 """What pages of the MS300's manual (appendix A) and of its sisters' say, typed from them by hand."""
 
 CONTROL = "sister"
-ALIKE = {("fault_reset", "Reset")}
 PINS = {"ManualChecked"}
 BRIEF = (
     "not known",
@@ -12,6 +11,8 @@ BRIEF = (
     "2500 in 2001H",
 )
 HELD = {"read_request": {0x2102: 0x1770}}
+ALIKE = {("fault_reset", "Reset")}
+"""Commands of 2000H are whole words: bits 13 and 14 give the drive to somebody else, and none may stay as it is."""
 KEYPAD = """
 00-20 | - | 0 | 0=keypad 1=rs-485 2=analog 3=up 4=pulse 6=canopen 7=dial 8=card | -
 00-21 | - | 0 | 0=keypad 1=terminals 2=rs-485 3=canopen 5=card | -
@@ -21,7 +22,7 @@ KEYPAD = """
 01-12 | - | 10.00 s | - | -
 01-13 | - | 10.00 s | - | -
 09-00 | - | - | 1 to 254 | -
-09-01 | - | 9600 bit/s | - | -
+09-01 | - | 9600 | - | -
 09-02 | - | - | - | -
 09-03 | - | - | - | -
 09-04 | - | 1 | 1=7n2 2=7e1 3=7o1 4 5 6 7 8 9 10 11 12=8n1 13=8n2 14=8e1 15=8o1 16=8e2 17=8o2 | -
