@@ -105,6 +105,7 @@ WORST: dict[str, dict[str, Value]] = {
     "SN300G5_FaultNumber": dict.fromkeys(
         (*(f"FaultContents{n}Word" for n in (1, 2, 3)), "CPFContents1Word", "CPFContents2Word"), 0xFFFF
     ),
+    "IG5A_FaultNumber": {"TripInfoWord": 0xFFFF},
     **{name: dict(pins) for name, pins in PACKED.items()},
 }
 """Pins with which a block turns as often as it can."""
@@ -142,7 +143,7 @@ WORST |= {
 
 SLACK = {
     "MB_AsciiDecode": 1, "MB_Frame": 3, "SN300G5_FaultNumber": 32, "GD200A_Request": 1, "ATV312_Request": 23,
-    "MX2_Request": 11,
+    "MX2_Request": 11, "IG5A_FaultNumber": 8,
 }  # fmt: skip
 """Turns that the stated bound has to spare: the LRC is not summed with itself; a request of a line has fewer bytes;
 bits that no fault has are masked;
