@@ -50,7 +50,7 @@ def test_resets_beside_everything_else(engine: Engine, drive: Drive) -> None:
 def test_stop_wins_over_every_run_and_reset(engine: Engine, prefix: str, pin: str) -> None:
     asked = {"Enable": True, "RunForward": True, "JogForward": True, "FaultReset": True, pin: pin != "Enable"}
     done = built(engine).run(f"{prefix}_Command", asked)
-    coasts = pin == "CoastStop" and prefix in ("CHF", "GD200A")
+    coasts = pin == "CoastStop" and prefix in ("CHF", "GD20", "GD200A")
     wanted = (STOPS[prefix][0], 6) if coasts else STOPS[prefix]
     assert (done["Address"], done["Value"], done["Stopping"], done["Resetting"]) == (*wanted, True, False)
     assert result(done) == ("OK" if prefix not in ("JSCC", "SN300G5") else "NOT_ABLE"), "which can reset"

@@ -31,6 +31,8 @@ PRINTED_WRONG = {
     ("ATV312", "write_ramps_request"): "CHECKSUM",
     ("ATV312", "write_ramps_reply"): "CHECKSUM",
     ("CHF", "read_rtu_reply"): "CHECKSUM",
+    ("GD20", "write_words_rtu_request"): "CHECKSUM",
+    ("GD20", "write_words_rtu_reply"): "CHECKSUM",
     ("GD200A", "write_words_rtu_request"): "CHECKSUM",
     ("GD200A", "write_words_rtu_reply"): "CHECKSUM",
 }
