@@ -150,14 +150,14 @@ def test_a_map_that_names_no_gap_promises_no_list_of_them() -> None:
     )
 
 
-def test_the_page_says_what_the_keypad_hides_and_that_a_drive_answers_nobody_at_first() -> None:
+def test_the_page_says_that_a_drive_answers_nobody_at_first() -> None:
     drive = shapes()["two_registers"]
     files = [*generic(LANGUAGES), *library_of("one", drive, LANGUAGES)]
     text = documents(files, [drive])["docs/TWO_Drive.md"]
     assert "unit addresses 1 to 247. **As delivered the drive\nanswers nobody**: set P3.00 first." in text
-    assert "| the address that the PLC uses; shown only while P0.03 = 3 |" in text
-    assert "| P3.01 Run command from | **1 = Bus** or **2 = Bus and keypad** |" in text
-    assert "P3.01 (run command from) = 1 or 2" not in text  # no setting chooses the terminals
+    assert "| the address that the PLC uses |" in text
+    assert "| P3.01 Run command from | **1 = Bus** |" in text
+    assert "P3.01 (run command from) = 1," not in text  # no setting chooses the terminals
     set_already = replace(drive, serial=replace(drive.serial, unit=replace(drive.serial.unit, default=1)))
     text = documents(files, [set_already])["docs/TWO_Drive.md"]
     assert "unit addresses 1 to 247. With P3.00 = 0 it answers nobody.\n" in text

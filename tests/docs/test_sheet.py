@@ -1,6 +1,5 @@
 """The sheet to print: each setting filled in for a line, and what no drive takes is refused with what it takes."""
 
-from dataclasses import replace
 from decimal import Decimal
 
 import pytest
@@ -127,10 +126,3 @@ def test_a_line_is_as_delivered_where_nothing_is_said() -> None:
     assert keypad.wanted(shipped.drives()["GD200A"], 1, None, None, Decimal(2)) == keypad.Wanted(
         1, 19200, "8E1", Decimal(2)
     )
-
-
-def test_a_digit_of_a_setting_is_put_among_the_others() -> None:
-    drive = shipped.drives()["PF525"]
-    assert drive.serial.baud
-    by_digit = replace(drive.serial, baud=replace(drive.serial.baud, digit=10))
-    assert chosen.chosen(replace(drive, serial=by_digit), 1, 19200, character("8N1"))["C123"] == 43

@@ -179,7 +179,7 @@ def test_the_maximum_and_full_scale_are_facts_of_the_reference() -> None:
         ("{register: 0202H, milliseconds: 100", "{register: 0202H, milliseconds: 10", True),
         ("reactions: [{does: coast_stop}]", "reactions: [{does: runs_on}]", True),
         ("{code: 1, parity: even,", "{code: 1, parity: none,", True),
-        ("needed: {value: 1, why", "needed: {one_of: [0, 1], why", True),
+        ("needed: {value: 1, why", "needed: {value: 0, why", True),
         ("all: [{register: 0031H, equals: 6401H}]", "all: [{register: 0031H, equals: 6402H}]", True),
         ("note: check the braking resistor", "note: check the ramp", False),
         ("{value: 4, name: Overrun", "{value: 8, name: Overrun", False),

@@ -1,4 +1,4 @@
-"""What a manual can say of rate and format: codes, none, two settings, a digit of one, another default by edition."""
+"""What a manual can say of rate and format: codes, none, two settings, another default by edition."""
 
 from pathlib import Path
 
@@ -22,16 +22,10 @@ TWO = """\
   format: {setting: P1.03, default: 2, codes: [{code: 0, parity: none}, {code: 2, parity: even}], source: section 1}
   stop_bits: {setting: P1.04, default: 1, codes: [{code: 1, stop_bits: 1}, {code: 2, stop_bits: 2}], source: section 1}
 """
-DIGITS = """\
-  baud: {setting: P1.02, digit: 1, default: 3, codes: [{code: 2, baud: 4800}, {code: 3, baud: 9600}], source: section 1}
-  format: {setting: P1.02, digit: 10, default: 2, source: section 1,
-    codes: [{code: 0, parity: none, data_bits: 8, stop_bits: 2}, {code: 2, parity: odd, data_bits: 8, stop_bits: 1}]}
-"""
 OPEN = "  baud: {setting: P1.02, codes: [{code: 6, baud: 9600}, {code: 8, baud: 38400}], source: section 1}\n"
 ONE = '{id: P1.02, name: Rate, source: section 1, default: "1"}'
 PARITY = '{id: P1.03, name: Parity, source: section 1, default: "2"}'
 STOPS = '{id: P1.04, name: Stop bits, source: section 1, default: "1"}'
-BOTH = '{id: P1.02, name: Rate and format, source: section 1, default: "23"}'
 EDITIONS = """{id: P1.02, name: Rate, source: section 1, needed: {why: the rate of the line}, editions: [
   {edition: 07/2012, default: "8", source: page 111}, {edition: 09/2014, default: "6", source: page 97}]}"""
 
@@ -52,7 +46,6 @@ def of(line: str, *settings: str) -> Serial:
         (FIXED, (), 9600, "8N1", True),
         (SWITCHES, (), 19200, "8N1", True),
         (RATE + TWO, (ONE, PARITY, STOPS), 38400, "8E1", True),
-        (DIGITS, (BOTH,), 9600, "8O1", True),
         (OPEN, (EDITIONS,), 9600, "8N1", False),
     ],
 )
@@ -65,7 +58,6 @@ def test_all_that_can_be_chosen_is_known() -> None:
     assert of(SWITCHES).rates == (19200, 9600)
     forms = [each.form for each in of(RATE + TWO, ONE, PARITY, STOPS).characters]
     assert forms == ["8E1", "8N1", "8N2", "8E2"]
-    assert [each.form for each in of(DIGITS, BOTH).characters] == ["8O1", "8N2"]
 
 
 def test_what_differs_by_edition_is_for_a_person_to_look_up() -> None:
@@ -83,7 +75,6 @@ def test_what_differs_by_edition_is_for_a_person_to_look_up() -> None:
         (FIXED, (), "bit rate 9600 bit/s (section 1)"),
         (SWITCHES, (), "bit rate 9600 bit/s, 19200 bit/s (as delivered) (section 1)"),
         (RATE + TWO, (ONE, PARITY, STOPS), "stop bits by P1.04: 1 = 1, 2 = 2; factory setting 1 (section 1)"),
-        (DIGITS, (BOTH,), "format by P1.02, its digit of tens: 0 = 8N2, 2 = 8O1; factory setting 2 (section 1)"),
         (OPEN, (EDITIONS,), "factory 8 (07/2012, page 111) or 6 (09/2014, page 97)"),
     ],
 )

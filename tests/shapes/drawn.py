@@ -399,15 +399,11 @@ def storage(sheet: Sheet, at: int) -> Row:
     for number, (name, unit) in enumerate((("Maximum frequency", "Hz"), ("Ramp up", "s"), ("Ramp down", "")), start=1):
         keys = {"unit": unit, "scale": {"factor": 0.1, "source": "table 4"}} if unit else {}
         sheet.words.append(sheet.named(name, id=f"P1.0{number}", address=sheet.place(at + number), **keys))
-    kind = sheet.chance.choice(("unexplained", "volatile", "enter_register", "by_setting", "ram_twin"))
+    kind = sheet.chance.choice(("unexplained", "volatile", "enter_register", "ram_twin"))
     made: Row = {"method": kind, "source": "section 4", "note": "as section 4 says"}
     if kind == "enter_register":
         sheet.words.append(sheet.named("Store all", address=sheet.place(at + 0x20)))
         made |= {"register": sheet.place(at + 0x20), "value": 1}
-    elif kind == "by_setting":
-        needed = {"value": 1, "why": "references are written again and again"}
-        setting = sheet.setting(7, "Memory of writes", values=sheet.listed("EEPROM", "RAM"), needed=needed)
-        made["ram_when"] = {"setting": setting, "value": 1}
     elif kind == "ram_twin":
         sheet.words.append(sheet.named("Ramp up in RAM", address=sheet.place(at + 0x30)))
         made["twins"] = [{"stored": sheet.place(at + 2), "ram": sheet.place(at + 0x30)}]

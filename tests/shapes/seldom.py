@@ -193,7 +193,7 @@ PLUGS: tuple[Row, ...] = (
 def line(sheet: Sheet, made: Row) -> None:
     """Formats and rates that other settings choose, or none; both modes; addresses that the standard reserves."""
     serial, limits = made["serial"], made["limits"]
-    for part, way in ((0.15, digits), (0.15, stop_bits), (0.5, uncoded), (0.15, modes)):
+    for part, way in ((0.15, stop_bits), (0.5, uncoded), (0.15, modes)):
         if sheet.maybe(part):
             way(sheet, serial)
     if sheet.maybe(0.1) and "setting" not in serial["unit"]:
@@ -209,25 +209,6 @@ def line(sheet: Sheet, made: Row) -> None:
         limits["ascii_data_bytes"] = {"value": 40, "source": "section 2"}
     if sheet.maybe(0.15):
         made["tolerances"] = [{"kind": "two_byte_count", "source": "section 2", "why": "as printed there"}]
-
-
-def digits(sheet: Sheet, serial: Row) -> None:
-    """Each digit of one setting chooses something else."""
-    if not {"baud", "format"} <= serial.keys():
-        return
-    gone = {serial[key]["setting"] for key in ("baud", "format")}
-    sheet.settings[:] = [each for each in sheet.settings if each["id"] not in gone]
-    baud, form_ = serial["baud"], serial["format"]
-    for code in form_["codes"]:
-        del code["stop_bits"]
-    default = 1000 + 10 * form_["default"] + baud["default"]
-    why: Row = {"why": "as the PLC has it"}
-    setting = sheet.setting(9, "Line", default=str(default), needed=why, range={"min": 0, "max": 9999})
-    baud |= {"setting": setting, "digit": 1}
-    form_ |= {"setting": setting, "digit": 10}
-    serial["mode"] |= {"setting": setting, "digit": 100, "default": 0, "codes": [{"code": 0, "mode": "rtu"}]}
-    codes = [{"code": code, "stop_bits": code} for code in (1, 2)]
-    serial["stop_bits"] = {"setting": setting, "digit": 1000, "default": 1, "codes": codes, "source": "section 1"}
 
 
 def stop_bits(sheet: Sheet, serial: Row) -> None:
@@ -276,13 +257,10 @@ def settings(sheet: Sheet, made: Row) -> None:
             del one["default"]
         if sheet.maybe(0.05):
             one["unit_step"] = 1
-    source = sheet.setting(13, "Source of the run command", values=sheet.listed("Keypad", "Terminals", "Bus", "Both"),
-                           needed={"one_of": [2, 3], "by_terminals": 1, "why": "the bus runs the drive"})  # fmt: skip
+    sheet.setting(13, "Source of the run command", values=sheet.listed("Keypad", "Terminals", "Bus", "Both"),
+                  needed={"value": 2, "by_terminals": 1, "why": "the bus runs the drive"})  # fmt: skip
     if sheet.maybe(0.3):
         sheet.settings[-1]["needed"] = {"value": 2, "why": "the bus runs the drive"}
-    for one in sheet.settings:
-        if one["id"] != source and sheet.maybe(0.05):
-            one["visible_when"] = [{"setting": source, "value": 2}]
 
 
 def in_choice(serial: Row, setting: str) -> bool:

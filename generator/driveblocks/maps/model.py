@@ -281,9 +281,6 @@ class Needed(Entry):
     """What a keypad setting must be before the drive listens."""
 
     value: Number | None = option("the number to enter; left out where any value serves that the PLC also uses", "2")
-    one_of: tuple[Number, ...] = option(
-        "in the place of `value`: the numbers that serve, where more than one does", "[1, 2]", default=()
-    )
     by_terminals: Number | None = option(
         "the number that lets the drive's terminals run it instead, of the setting that chooses the source of the run "
         "command",
@@ -293,8 +290,8 @@ class Needed(Entry):
 
     @property
     def right(self) -> tuple[int, ...]:
-        """The numbers that serve; none where any does that the PLC also uses."""
-        return self.one_of if self.value is None else (self.value,)
+        """The number that serves; none where any does that the PLC also uses."""
+        return () if self.value is None else (self.value,)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -350,11 +347,6 @@ class Setting(Named, Cited):
         "meaning of each number", "[{value: 0, name: 1200 bit/s, zh: 1200BPS}]", default=()
     )
     needed: Needed | None = option("what it must be before the drive listens", "{value: 2, why: ...}")
-    visible_when: tuple[Switch, ...] = option(
-        "the keypad shows it only while other settings are so, all of them: a level of access, a macro",
-        "[{setting: H5-05, value: 0}]",
-        default=(),
-    )
     note: English | None = option("what else a person must know", "takes effect after a power cycle")
     corroborated: tuple[Corroboration, ...] = option(
         "other documents on this", "[{document: ..., page: ..., reads: ...}]", default=()
@@ -405,10 +397,6 @@ class Choice(Cited):
     document: Word | None = option(_SAYS_SO, "fieldbus_guide")
     setting: Id | None = option("id of the keypad setting", "H5-02")
     default: Number | None = option("factory setting, as a code of the list", "3")
-    digit: Literal[1, 10, 100, 1000] | None = option(
-        "the decimal digit of the setting that is the code, where each digit chooses something else: 1 is the last",
-        "10",
-    )
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -889,10 +877,10 @@ class TwinRange(Entry):
 class Storage(Cited):
     """What happens to a written parameter: RAM, EEPROM, or unexplained (then it counts as EEPROM)."""
 
-    method: Literal["enter_register", "ram_address_bit", "ram_twin", "by_setting", "volatile", "unexplained"] = fact(
+    method: Literal["enter_register", "ram_address_bit", "ram_twin", "volatile", "unexplained"] = fact(
         "`enter_register`: writes reach RAM, writing a register stores them; `ram_address_bit`: writes are stored "
         "unless a bit is added to the address; `ram_twin`: writes are stored, but some registers are there a second "
-        "time in RAM; `by_setting`: a keypad setting decides, and must be set to RAM; `volatile`: nothing that is "
+        "time in RAM; `volatile`: nothing that is "
         "written outlasts the supply; `unexplained`: the manual does not say",
         "enter_register",
     )
@@ -912,7 +900,6 @@ class Storage(Cited):
     twin_ranges: tuple[TwinRange, ...] = option(
         "ram_twin: the same by a rule", "[{stored: F000H-FEFFH, ram: 0000H-0EFFH}]", default=()
     )
-    ram_when: Switch | None = option("by_setting: the setting, and its value for RAM", "{setting: H5-05, value: 0}")
     readable: bool = option("ram_address_bit: whether such an address may be read", "false", default=True)
 
 

@@ -9,10 +9,10 @@ from driveblocks.maps.trust import MOTION, facts
 from structured_text.language.fingerprint import fingerprint
 
 _LATER = {
-    "None": "base numbering document trust differs no_address reply_delay group ram_when present_bits needs full_scale "
-    "full_scale_hz warnings silent_ms coil discrete input by counts lower_limit digit stop_bits below above delivered "
+    "None": "base numbering document trust differs no_address reply_delay group present_bits needs full_scale "
+    "full_scale_hz warnings silent_ms coil discrete input by counts lower_limit stop_bits below above delivered "
     "profile help display pins",
-    "()": "never without one_of visible_when twins twin_ranges otherwise does at_0 fed_by editions forbids remedies",
+    "()": "never without twins twin_ranges otherwise does at_0 fed_by editions forbids remedies",
     "False": "negative holds power_cycle",
 }
 """Keys that the format has learned since the first numbers were printed, by what they are when they are left out."""

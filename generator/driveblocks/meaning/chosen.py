@@ -4,7 +4,6 @@ from collections.abc import Iterator
 
 from driveblocks.maps.model import BaudChoice, Drive, FormatChoice, ModeChoice, StopBitsChoice
 from driveblocks.meaning.serial import PARITIES, Character, serial
-from driveblocks.meaning.setting import setting
 from driveblocks.modbus.frame import Mode
 
 Choice = ModeChoice | BaudChoice | FormatChoice | StopBitsChoice
@@ -15,8 +14,8 @@ def chosen(drive: Drive, unit: int, rate: int, character: Character, mode: Mode 
     mode = mode or ("ascii" if serial(drive).ascii else "rtu")
     found = {drive.serial.unit.setting: unit} if drive.serial.unit.setting else {}
     for id_ in dict.fromkeys(each.setting for each in _choices(drive) if each.setting):
-        some = [(each, list(_codes(each, rate, character, mode))) for each in _choices(drive) if each.setting == id_]
-        number = _number(drive, id_, some)
+        some = [_codes(each, rate, character, mode) for each in _choices(drive) if each.setting == id_]
+        number = min(set.intersection(*map(set, some)), default=None)
         if number is not None:
             found[id_] = number
     return found
@@ -51,18 +50,3 @@ def _codes(choice: Choice, rate: int, character: Character, mode: Mode) -> Itera
         alike = all(getattr(each, key, None) in (None, value) for key, value in wanted)
         if each.code is not None and alike and PARITIES.get(getattr(each, "parity", ""), "?") in "?" + character.parity:
             yield each.code
-
-
-def _number(drive: Drive, id_: str, some: list[tuple[Choice, list[int]]]) -> int | None:
-    """One number for all that a setting chooses: each by a digit of its own, or all by the same code."""
-    if any(not codes for _, codes in some):
-        return None
-    if not any(choice.digit for choice, _ in some):
-        alike = set.intersection(*(set(codes) for _, codes in some))
-        return min(alike, default=None)
-    own = setting(drive, id_)
-    number = (own.factory if own else None) or 0
-    for choice, codes in some:
-        digit = choice.digit or 1
-        number += (codes[0] - number // digit % 10) * digit
-    return number

@@ -70,7 +70,6 @@ class Setting:
     bounds: tuple[int, int] | None
     values: tuple[tuple[int, str], ...]
     needed: Needed | None
-    shown_while: tuple[tuple[str, int], ...]
     """Other settings, and what they are while the keypad shows it."""
     note: str
     keypad: Keypad = field(default_factory=lambda: Keypad(""))
@@ -129,7 +128,6 @@ def settings(drive: Drive) -> tuple[Setting, ...]:
             bounds=(one.range.min, one.range.max) if one.range else None,
             values=tuple((each.value, each.name) for each in one.values),
             needed=Needed(one.needed.right, one.needed.by_terminals, one.needed.why) if one.needed else None,
-            shown_while=tuple((each.setting, each.value) for each in one.visible_when),
             note=one.note or "",
             keypad=keypad_of(drive, one),
             group=_group(drive, one),
@@ -178,8 +176,6 @@ def _group(drive: Drive, one: model.Setting) -> str:
     """Where a setting belongs, by what the rest of the map says of it."""
     run, beside = drive.operation, _menu(one.id) == _menu(drive.serial.unit.setting)
     own = run.own_maximum.register if run.own_maximum else None
-    if any(each.setting == one.id for other in drive.settings for each in other.visible_when):
-        return "access"
     if one.id in _line(drive):
         return "line"
     if one.id in _silence(drive):

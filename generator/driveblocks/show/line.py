@@ -27,7 +27,6 @@ from driveblocks.show.faults import recorded
 from driveblocks.show.layout import both, card, choices, code_text, facts, heading, listed
 
 _TOLERATED = {"two_byte_count": ("byte count", "of a read may be a word")}
-_DIGITS = {1: "ones", 10: "tens", 100: "hundreds", 1000: "thousands"}
 _LIMITS = {
     "read_words": "words in one read",
     "write_words": "words in one write",
@@ -100,8 +99,7 @@ def _coded(code: BaudCode | FormatCode, words: str) -> str:
 
 def _choice(choice: Choice, codes: Iterable[str], always: str = "") -> str:
     known = listed(codes)
-    digit = f", its digit of {_DIGITS[choice.digit]}" if choice.digit else ""
-    setting = f"by {choice.setting}{digit}: " if choice.setting else ""
+    setting = f"by {choice.setting}: " if choice.setting else ""
     default = "" if choice.default is None else f"; factory setting {choice.default}"
     parts = [always, f"{setting}{known}{default}" if known or setting or default else "", f"({choice.source})"]
     return "  ".join(part for part in parts if part)
@@ -176,7 +174,6 @@ def of_setting(drive: Drive, setting: Setting) -> RenderableType:
         f"{setting.id}  {both(setting.name, setting.own)}",
         ("needed", _needed(setting, keypad)),
         ("keypad", _keypad(setting, keypad)),
-        ("shown while", listed(f"{each.setting} = {each.value}" for each in setting.visible_when) or None),
         ("printed", setting.zh if setting.zh_used else None),
         ("register", address_text(setting.register) if setting.register is not None else None),
         ("range", _range(setting, keypad)),

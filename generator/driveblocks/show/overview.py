@@ -195,8 +195,6 @@ def _storage(drive: Drive) -> str:
     if storage.max_writes is not None:
         parts.append(f"at most {storage.max_writes} times")
     parts += [f"{address_text(one.ram)} is {address_text(one.stored)} in RAM" for one in storage.twins]
-    if storage.ram_when is not None:
-        parts.append(f"in RAM while {storage.ram_when.setting} = {storage.ram_when.value}")
     if storage.add is not None:
         readable = "may" if storage.readable else "must not"
         parts.append(f"add {address_text(storage.add)} to an address of {storage.area}; it {readable} be read there")

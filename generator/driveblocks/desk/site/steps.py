@@ -48,9 +48,6 @@ def keypad(talk: Talk, asker: Asker, found: Found) -> None:
         is_, must = named(known[one.id], one.read) or "?", _right(known[one.id], one.must) or "as the PLC"
         made.add_row(one.id, one.name, is_, must, one.why)
     asker.say(made)
-    for each in (known[one.id] for one in found.settings):
-        if each.shown_while:
-            asker.say(f"{each.id} is shown only while {_conditions(each)}")
     for one in (each for each in found.settings if each.differs):
         is_, must = named(known[one.id], one.read), _right(known[one.id], one.must)
         asker.say(f"{known[one.id].keypad.code} is {is_} and must be {must}: set it at the keypad")
@@ -89,10 +86,6 @@ def named(setting: Setting, number: int | None) -> str:
 
 def _right(setting: Setting, numbers: Collection[int]) -> str:
     return " or ".join(named(setting, each) for each in numbers)
-
-
-def _conditions(setting: Setting) -> str:
-    return " and ".join(f"{other} = {value}" for other, value in setting.shown_while)
 
 
 def _words(talk: Talk, span: Span) -> tuple[int, ...]:

@@ -7,14 +7,12 @@ from driveblocks.maps.model import Area, AreaExample, Drive, Storage
 from driveblocks.maps.problem import Place, Report, line
 from driveblocks.maps.rules.access import known
 from driveblocks.maps.rules.parameter import of_form
-from driveblocks.maps.rules.setting import must_be
 from driveblocks.maps.rules.unique import overlapping, unique
 
 _STORAGE_KEYS = {
     "enter_register": ("register", "value"),
     "ram_address_bit": ("add", "area"),
     "ram_twin": ("twins",),  # those of `twin_ranges`, too
-    "by_setting": ("ram_when",),
     "volatile": (),
     "unexplained": (),
 }
@@ -90,8 +88,6 @@ def _storage(drive: Drive, storage: Storage, report: Report) -> None:
             wrong = f"{storage.value} is outside the range of {address_text(storage.register)}"
             report.add(storage.place("value"), wrong, f"it holds {allowed.min} to {allowed.max}")
     _twins(drive, storage, report)
-    if storage.ram_when is not None:
-        must_be(drive, storage.ram_when, "writes stay in RAM", report)
     named = {*(area.id for area in drive.areas), *(section.id for section in drive.sections)}
     if storage.area is not None and storage.area not in named:
         wrong = f"there is no area `{storage.area}`"

@@ -1,7 +1,7 @@
 """Rules on keypad settings: their values, their registers, and the codes of the serial line that they choose."""
 
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 
 from driveblocks.maps.form import address_text
 from driveblocks.maps.model import (
@@ -38,9 +38,7 @@ def check(drive: Drive, report: Report) -> None:
         of_form(drive, setting, setting.id, report)
         _values(setting, report)
         _numbers(setting, report)
-        _alternatives(setting, report)
         _editions(setting, report)
-        _visible(setting, settings, report)
         _display(drive, setting, report)
         _register(drive, setting, registers.get(setting.id), report)
     if drive.profile is not None:
@@ -94,7 +92,7 @@ def _numbers(setting: Setting, report: Report) -> None:
     needed = setting.needed
     if needed is not None:
         numbers = [("value", needed.value), ("by_terminals", needed.by_terminals)]
-        for key, number in (*numbers, *(("one_of", one) for one in needed.one_of)):
+        for key, number in numbers:
             wrong = _impossible(setting, number) if number is not None else ""
             if wrong:
                 report.miss(needed.place(key), f"needed is {number}, but {wrong}", "correct one of them")
@@ -104,17 +102,6 @@ def _numbers(setting: Setting, report: Report) -> None:
         if wrong:
             right = "correct one of them; where the manual prints both, leave `default` out and add an erratum"
             report.miss(setting.place("default"), f"default is {default}, but {wrong}", right)
-
-
-def _alternatives(setting: Setting, report: Report) -> None:
-    needed = setting.needed
-    some = needed.one_of if needed is not None else ()
-    if needed is None or not some:
-        return
-    if needed.value is not None:
-        report.add(needed.place("one_of"), "`one_of` beside `value`", "write the numbers that serve in one of them")
-    elif len(set(some)) < len(some) or len(some) == 1:
-        report.add(needed.place("one_of"), f"`one_of` names {_list(some)}", "write two numbers or more, or `value`")
 
 
 def _editions(setting: Setting, report: Report) -> None:
@@ -136,19 +123,6 @@ def _editions(setting: Setting, report: Report) -> None:
         report.miss(setting.place("editions"), wrong, "add `needed: {why: ...}`: a person has to look it up")
 
 
-def _visible(setting: Setting, settings: Mapping[str, Setting], report: Report) -> None:
-    """Note a condition that no keypad can meet."""
-    for each in setting.visible_when:
-        other = settings.get(each.setting)
-        if other is None:
-            report.miss(each.place("setting"), f"there is no setting `{each.setting}`", "name an entry of `settings`")
-        elif setting.id in _waits_for(each.setting, settings):
-            wrong = f"{setting.id} is shown only after it was set itself"
-            report.add(each.place("setting"), wrong, "name a setting that the keypad shows without it")
-        elif wrong := _impossible(other, each.value):
-            report.miss(each.place("value"), f"shown while it is {each.value}, but {wrong}", "correct one of them")
-
-
 def _display(drive: Drive, setting: Setting, report: Report) -> None:
     """Note texts that no person can tell apart, and a scale that has no unit or that the watchdog does not have."""
     texts = [each for each in setting.values if each.display is not None]
@@ -165,17 +139,6 @@ def _display(drive: Drive, setting: Setting, report: Report) -> None:
         if each and each.setting == setting.id and counted and counted != each.milliseconds:
             wrong = f"a count of {setting.id} is {counted.normalize():f} ms here, and {each.milliseconds} ms elsewhere"
             report.add(own.place("factor"), wrong, "the manual's table decides which of the two is wrong")
-
-
-def _waits_for(first: str, settings: Mapping[str, Setting]) -> set[str]:
-    """A setting, and those without which it is not shown, whatever comes between."""
-    found, waiting = set[str](), [first]
-    while waiting:
-        id_ = waiting.pop()
-        if id_ in settings and id_ not in found:
-            found.add(id_)
-            waiting += [each.setting for each in settings[id_].visible_when]
-    return found
 
 
 def _no_address(unit: UnitAddress, number: int, setting: Setting | None, report: Report) -> None:
@@ -236,9 +199,6 @@ def _choice(name: str, choice: Choice, codes: Sequence[Code], report: Report) ->
     unique([code for code in codes if code.code is not None], "code", f"`{name}`: code", report, str)
     numbers = [code.code for code in codes if code.code is not None]
     _uncoded(name, choice, codes, report)
-    if choice.digit is not None and (choice.setting is None or not {*numbers} <= {*range(10)}):
-        wrong = f"one digit chooses `{name}`, but not of a setting, or by codes that are no digits"
-        report.miss(choice.place("digit"), wrong, "add `setting`, and write codes from 0 to 9")
     if choice.default is not None and numbers and choice.default not in numbers:
         wrong = f"default {choice.default} is not a code of `{name}`"
         report.miss(choice.place("default"), wrong, f"its codes are {_list(numbers)}")
@@ -263,8 +223,7 @@ def _chosen(
         wrong = f"there is no setting `{choice.setting}`"
         report.miss(choice.place("setting"), wrong, "name an entry of `settings`")
         return
-    digit = getattr(choice, "digit", None)
-    values = {} if digit else {value.value: value for value in setting.values}
+    values = {value.value: value for value in setting.values}
     if values and codes and set(values) != {code.code for code in codes}:
         wrong = f"the codes of `{name}` are not the values of {setting.id}"
         report.miss(choice.place("codes"), wrong, f"its values are {_list(list(values))}")
@@ -279,8 +238,6 @@ def _same_default(name: str, choice: Choice | UnitAddress, setting: Setting, rep
         wrong = f"default {choice.default} of `{name}`, but {setting.id} has another in each edition"
         report.add(choice.place("default"), wrong, "leave it out: a person has to look it up")
     printed = _decimal(setting.default)
-    if printed is not None and (digit := getattr(choice, "digit", None)):
-        printed = printed // digit % 10
     if None not in (choice.default, printed) and choice.default != printed:
         wrong = f"default {choice.default} of `{name}`, but {setting.id} has {printed}"
         report.add(choice.place("default"), wrong, "the manual's table decides which of the two is wrong")
