@@ -29,7 +29,7 @@ def run(old: str, new: str, changelog: bool, json: bool) -> None:
     drive can do and does by itself, faults. Of two versions of a map, blocks and facts: what no longer compiles (a pin
     is gone, a type is another one), what acts differently (an address, a scale, a command), what is new, and where only
     words differ. Of two folders, such as blocks/iec61131 of two releases, the pins of all blocks. The exit status is 0
-    if every program still compiles, 1 if one may not, 2 for bad input.
+    if every program still compiles and of two families, 1 if one may not, 2 for bad input.
 
     Examples: driveblocks diff chf_of_last_year.yaml chf, driveblocks diff acs355 6SL3210-5BE17-5UV0
     """
@@ -48,7 +48,7 @@ def run(old: str, new: str, changelog: bool, json: bool) -> None:
     drives = [each.drive for each in found if each.drive]
     if len(drives) == len(found) and drives[0].prefix != drives[1].prefix:
         _swap(*drives, json=json, markdown=changelog)
-        sys.exit(1)
+        return
     try:
         changes = versions.compared(*found)
     except ValueError as error:

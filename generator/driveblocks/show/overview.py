@@ -57,7 +57,7 @@ def _identity(drive: Drive, file: str) -> Iterator[RenderableType]:
     yield heading(f"{drive.prefix}  {_text(drive.vendor)}")
     yield facts(
         ("family", _text(drive.family)),
-        ("model numbers", listed(one.plate for one in drive.models) or None),
+        ("nameplates", listed(one.plate for one in drive.models) or None),
         ("map", f"{file}, revision {revision(drive):08X}"),
         ("manual", _text(manual.title)),
         ("publisher", _text(manual.publisher)),
