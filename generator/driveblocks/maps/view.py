@@ -57,6 +57,12 @@ def markdown(text: str) -> str:
     return re.sub(r"([\\|<]|(?<=\])\()", r"\\\1", re.sub(r"[\r\n]+", " ", text))
 
 
+def sentence(text: str) -> str:
+    """A text in Markdown that begins with a capital, but for an id, such as b1-01, which keeps its own."""
+    named = any(each.isdecimal() for each in text.partition(" ")[0])
+    return markdown(text if named else text[:1].upper() + text[1:])
+
+
 def title(drive: Drive) -> str:
     """Maker and family in English, the maker once."""
     vendor, family = drive.vendor.en, drive.family.en

@@ -55,6 +55,7 @@ def environment() -> jinja2.Environment:
     made.filters.update(
         word=writing.word,
         plain=view.markdown,
+        sentence=view.sentence,
         byte=writing.byte,
         comment=writing.comment,
         span=form.span_text,
