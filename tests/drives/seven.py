@@ -135,18 +135,19 @@ def _stops(bench: DriveBench, register: int, stops: int, chance: Random) -> Iter
         asked = (_asked(each, at + 1, register) for each in bench.run(2000))
         sent = next(each for each in asked if each is not None)
         yield sent - pressed
-        _until(bench, at, running=False)
+        _until(bench, f"Drive{at}.StopConfirmed")
         bench.set(**{f"Run{at}": True})
-        _until(bench, at, running=True)
+        _until(bench, f"Drive{at}.Running")
 
 
-def _until(bench: DriveBench, at: int, *, running: bool, most_ms: int = 10_000) -> None:
-    """Let time pass until a motor runs, or stands."""
+def _until(bench: DriveBench, pin: str, most_ms: int = 15_000) -> None:
+    """Let time pass until a pin is TRUE, and a second more."""
     for _ in range(0, most_ms, 100):
-        if bench.block[f"Drive{at}.Running"] is running:
+        if bench.block[pin] is True:
+            bench.run(1000)
             return
         bench.run(100)
-    raise AssertionError(f"drive {at} has not come to Running = {running}")
+    raise AssertionError(f"{pin} has not come")
 
 
 def _row(drive: Drive, rate: int, keeps: bool, name: str) -> str:

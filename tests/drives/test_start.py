@@ -23,8 +23,8 @@ def test_from_power_up_to_a_turning_motor_and_back(kind: str) -> None:
     bench.put(RunForward=False).stopped()
     assert bench.drives[0].mode == "standstill"
     assert bench.block["TheLine.Timeouts"] == 0
-    # LOW and CHF differ in a register that LOW refuses; it is read twice
-    assert bench.block["TheLine.Refusals"] == (2 if kind == "LOW" else 0)
+    # LOW differs from CHF and from the MD type in registers that LOW refuses; each is read twice
+    assert bench.block["TheLine.Refusals"] == (4 if kind == "LOW" else 0)
 
 
 def test_run_and_jog_go_through_stop_and_a_new_edge() -> None:

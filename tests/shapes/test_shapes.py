@@ -342,11 +342,10 @@ def test_the_templates_get_what_the_drive_says_of_itself_or_nothing() -> None:
         "cia402": "polls", "profidrive": "reference", "pulse": "polls", "two_registers": "run", "active_low": None,
         "packed": None,
     }  # fmt: skip
-    bare = drive_block(shapes()["profidrive"])
-    assert bare.reading.identity is None
+    assert drive_block(shapes()["two_registers"]).reading.identity is None
     bare = drive_block(shapes()["active_low"])
     assert (bare.showing.commanded_by, bare.showing.own_maximum) == ([], None)
-    apart = bare.reading.identity  # from CHF, whose jog stop is its run, and from JSCC
+    apart = bare.reading.identity  # from CHF, whose jog stop is its run, from JSCC, and from the MD type
     assert apart
     assert not apart.plate
     assert [(read.address, read.shows) for read in apart.reads] == [(0x2001, "any"), (0x3000, "refusal")]

@@ -27,6 +27,10 @@ MOST_READS = 3
 """First reads of a drive block: each has an entry of its own among the polls."""
 
 
+PERCENT_COUNTS = 10000
+"""Counts of 100 % of a reference that is a percentage of the maximum."""
+
+
 @dataclass(frozen=True)
 class Stop:
     """A stop of one family at a drive of another."""
@@ -132,10 +136,28 @@ def first_reads(drive: Drive) -> tuple[First, ...]:
     left = against(drive)
     found: list[First] = []
     for each in _candidates(drive, left):
-        if len(found) < MOST_READS and (told := [other for other in left if _tells(each, other)]):
+        if len(found) < MOST_READS and (told := [other for other in left if _serves(each, drive, other)]):
             found.append(each)
             left = [other for other in left if other not in told]
     return tuple(found)
+
+
+def _serves(first: First, drive: Drive, other: Drive) -> bool:
+    """Whether a read tells a drive of another family, at a cost that its harm is worth.
+
+    A refusal is a slow and a weak sign: it is not waited for where the other only crawls.
+    """
+    if first.shows != "refusal":
+        return _tells(first, other)
+    return not _crawls(drive, other) and _tells(first, other)
+
+
+def _crawls(drive: Drive, other: Drive) -> bool:
+    """Whether the worst that stops do at a drive of another family is to ask it for a hundredth of its speed at most."""
+    reference = other.operation.reference
+    full = reference.full_scale or (PERCENT_COUNTS if reference.means == "percent_of_maximum" else 0)
+    harms = [each for each in stops_at(drive, other) if each.means in HARMS]
+    return all(each.register == reference.register and each.word * 100 <= full for each in harms)
 
 
 def against(drive: Drive) -> list[Drive]:
@@ -239,14 +261,18 @@ def _beyond(row: Register) -> bool:
 
 
 def pairs(drives: Iterable[Drive]) -> list[Pair]:
-    """Each family at a drive of each other one of these, where its stop is motion, or another register."""
+    """Each family at a drive of each other one of these, where its stop is motion, or another register.
+
+    Not where nothing tells the two apart and the other only crawls.
+    """
     some = list(drives)
-    return [
+    found = [
         Pair(one, other, stops_at(one, other)[0], told_apart(one, other))
         for one in some
         for other in some
         if one.prefix != other.prefix and _harms(one, other)
     ]
+    return [each for each in found if each.told or not _crawls(each.block, each.drive)]
 
 
 def told_apart(drive: Drive, other: Drive) -> str:

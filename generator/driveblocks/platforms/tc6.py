@@ -156,21 +156,19 @@ class _Sheet:
         return element(
             _SECTIONS[block.kind],
             {flag: "true" for word, flag in _QUALIFIERS.items() if word in block.qualifiers},
-            *(self.variable(each, block.kind) for each in block.variables),
+            *map(self.variable, block.variables),
             self.dialect.documentation(self.documented(block.leading, None)),
         )
 
-    def variable(self, one: VarDecl, kind: VarKind | None = None) -> Element:
-        """Where its comments are also in the interface as plain text, an inner one has them there alone."""
+    def variable(self, one: VarDecl) -> Element:
         if one.edge:
             self.refuse(one.at, f"{one.edge} has no form in this XML; call R_TRIG in the body")
-        said = self.documented(one.leading, one.trailing)
         return element(
             "variable",
             {"name": one.name, "address": one.address},
             element("type", {}, self.spec(one.spec)),
             self.initial(one.initial),
-            None if self.dialect.plain and kind is VarKind.LOCAL else self.dialect.documentation(said),
+            self.dialect.documentation(self.documented(one.leading, one.trailing)),
         )
 
     def spec(self, spec: Spec) -> Element:
