@@ -16,7 +16,7 @@ ON, RUNNING, HOLDS, PASSES, RESET, PLC, TURN = 1, 8, 0x20, 0x40, 0x80, 0x400, 0x
 """Bits of the control word: OFF1, operation, ramp not held, setpoint enabled; the last two are Siemens' alone."""
 OPERATES, OFFS = HOLDS | PASSES, 6  # OFF2 and OFF3 are off at 1
 STW, HSW, ZSW, HIW = 0x63, 0x64, 0x6D, 0x6E  # V page 112
-P2000, RESERVED, END = 0xF, 0xC, 0x3E
+P2000, RESERVED, MONITORS, END = 0xF, 0xC, 0x17, 0x3E
 CW, REF1, SW, LAST_ACTUAL = 0, 1, 3, 12  # A page 313
 SAVE, FAULTS, SIGN = 1606, (400, 411, 412), 0x8000  # 1607; 0401, 0412, 0413: ACS550-02 page 228
 PARAMETERS = (1000, 1002, 1101, 1102, 1104, 1603, SAVE, *range(2200, 2210), 3017, 3018)  # their numbers, less one
@@ -295,6 +295,6 @@ STORES: dict[str, Callable[[bytes], bool]] = {
     "ACS355": lambda body: (
         body[1] in (6, 16) and 0 <= SAVE - (body[2] << 8 | body[3]) < (1 if body[1] == 6 else body[5])
     ),
-    "V20": lambda body: body[1] in (6, 16) and body[2:4] not in (b"\0\x63", b"\0\x64"),
+    "V20": lambda body: body[1] in (6, 16) and body[2] == 0 and body[3] < MONITORS,
 }
-"""Whether a request without checksum may store something: 1607 alone, or anything but process data."""
+"""Whether a request without checksum may store something: in 1607 alone, or in a parameter."""
