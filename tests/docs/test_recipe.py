@@ -17,6 +17,7 @@ EVERY_US = 100 * US
 NAMES = {
     "sn": "SN300G5", "jscc": "JSCC", "chf": "CHF", "atv": "ATV312", "mx": "MX2", "pf": "PF4", "gd": "GD200A",
     "pf40p": "PF40P", "pf4m": "PF4M", "pf400": "PF400", "pf525": "PF525",
+    "v20": "V20", "acs355": "ACS355",
 }  # fmt: skip
 NO_RESET = {"sn", "jscc"}
 """Whose manuals know of no reset by the bus."""

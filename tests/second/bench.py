@@ -3,7 +3,7 @@
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from tests.second import atv312, chf, gd200a, jscc, mx2, pf4, sn300g5
+from tests.second import atv312, chf, gd200a, jscc, mx2, pf4, profiles, sn300g5
 from tests.second.drive import Drive
 from tests.second.figures import CHAR_US
 from tests.second.frames import ascii_ as ascii_frame
@@ -20,11 +20,11 @@ from driveblocks.maps.revision import checked
 from structured_text.engines.engine import Library, Value
 
 KIND = {"ATV312": "atv", "CHF": "chf", "GD200A": "gd", "JSCC": "jscc", "MX2": "mx", "PF4": "pf", "SN300G5": "sn"}
-KIND |= {name: name.lower() for name in pf4.VARIANTS}
+KIND |= {name: name.lower() for name in (*pf4.VARIANTS, *profiles.FAMILIES)}
 MODELS = pf4.alike(
     {"ATV312": atv312, "CHF": chf, "GD200A": gd200a, "JSCC": jscc, "MX2": mx2, "PF4": pf4, "SN300G5": sn300g5}
 )
-STORES = {family: module.stores for family, module in MODELS.items()}
+STORES = {family: module.stores for family, module in MODELS.items()} | profiles.STORES
 LISTED = 2
 """Rows after `PARAMETER` that each manual lists."""
 SHORTEST = 4
@@ -118,6 +118,8 @@ class Second(Bench):
             given["settings"] = settings if settings and not index else {}
             if kind == "JSCC":
                 given["reference_milli_hz"] = 10
+            if kind == "ACS355":
+                self.put(index, FrequencyScale=0.1)
             one = model(KIND[kind], index + 1, ascii=ascii_, char_us=CHAR_US, seed=seed + index, **given)
             self.models.append(one)
             if one.o.comm_us is not None:

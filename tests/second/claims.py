@@ -26,21 +26,23 @@ from tests.second.figures import (
     UNHURRIED_MS,
     UNLEARNED_MS,
     path_us,
+    ramp_us,
     round_us,
 )
 from tests.second.frames import runs
 from tests.second.observer import MOVES, RUN, STOPPING, Pins, Seen, any_of, both, wish
 from tests.second.pf4 import VARIANTS
+from tests.second.profiles import FAMILIES as PROFILES
 from tests.second.trips import ABLE, Trips
 
 if TYPE_CHECKING:
     from tests.second.judge import Judge
 
-ONE_WORD = ("PF4", *VARIANTS)
-"""Families whose reads have one length: a copy of a reply passes for the next, as docs/line.md says."""
+ONE_WORD = ("PF4", *VARIANTS, *PROFILES)
+"""Families with a read as long as that of the status: a copy of a reply passes for the next, as docs/line.md says."""
 READS_FEED = ("MX2",)
 """Drives whose watchdog any good frame feeds, so that no reference is sent for it alone (SJ700, page 4-129)."""
-FEEDS_AT_REST = {"PF525": bytes.fromhex("06 2001 0000")}
+FEEDS_AT_REST = {"PF525": bytes.fromhex("06 2001 0000"), "V20": bytes.fromhex("06 0064 0000")}
 """Drives whose watchdog counts at standstill, too, and what feeds it there: a reference of 0 (520-UM001O, C125)."""
 QUIET_US = 2_000_000
 """A drive that has been stopped for so long is written to no more."""
@@ -100,6 +102,7 @@ RUNS = 4
 """Orders to run that an edge is worth: one, and three more while nobody knows whether it was heard."""
 LATE_ECHOES = 4
 """A late reply that meets the echo of the next request may pass for a frame of others; the line bears five."""
+USUAL_SCAN_MS = 20
 TAKEN_BACK = 100
 """Requests that a slow port can find in the mailbox no longer, in a whole walk."""
 LINE_ERRORS = (0, 61)
@@ -355,7 +358,8 @@ class Claims:
     def _steady(self, index: int, claim: Claim) -> bool:
         """It has been running for long, with the same pins."""
         now = self.bench.now
-        settled = claim.driven_us is not None and now - max(claim.driven_us, claim.changed_us) > START_US
+        most = START_US + ramp_us(self.bench, index)
+        settled = claim.driven_us is not None and now - max(claim.driven_us, claim.changed_us) > most
         settled = settled and self.judge.observer.watches[index + 1].permitted
         return settled and self.attended(index) and self.willing(index) and self.well(index, START_US)
 
@@ -384,7 +388,7 @@ class Claims:
             return
         first = claim.writes[0] if period else claim.writes[-2]
         since = max(claim.changed_us, self.judge.units[index].unknown_us, claim.driven_us or 0, claim.begun_us)
-        known = first > since + START_US
+        known = first > since + START_US + ramp_us(self.bench, index)
         if known and now_us - first < (3 * period if period else SPEED_US):
             self.judge.tell(index, "refresh", f"writes at {[each // 1000 for each in claim.writes]} ms")
 
@@ -585,7 +589,8 @@ class Claims:
         assert isinstance(hz, float)
         assert isinstance(limit, float)
         asked = min(hz, limit or hz, 50.0)
-        steady = driven and claim.driven_us is not None and now - max(claim.driven_us, claim.changed_us) > SPEED_US
+        began = max(claim.driven_us or now, claim.changed_us) + ramp_us(bench, index)
+        steady = driven and claim.driven_us is not None and now - began > SPEED_US
         permitted = self.judge.observer.watches[index + 1].permitted and not one.turned
         runs = steady and any_of(RUN, pins) and permitted and not self.lies(index)
         far = abs(abs(one.motor.hz(now)) - asked) > 0.01 * asked + 0.2
@@ -712,7 +717,8 @@ class Claims:
         self._once(0, "line", bad=good and error not in LINE_ERRORS and not old, seen=("ErrorID", error))
         strange = block["TheLine.ForeignFrames"]
         assert isinstance(strange, int)
-        most = LATE_ECHOES if any(one.o.late_per_1000 for one in bench.models) else 0
+        slow = bench.ms > USUAL_SCAN_MS  # then a late reply is heard behind the next request
+        most = LATE_ECHOES * (1 + slow) if any(one.o.late_per_1000 for one in bench.models) else 0
         forgotten = good and now - began > CALM_US + 1_000_000  # echoes that a restart has cut in two
         self._once(0, "strange", bad=forgotten and strange > most, seen=(strange, "foreign frames"))
         self._strangers(strange)

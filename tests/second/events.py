@@ -11,22 +11,31 @@ from tests.second.line import Faults
 from tests.second.pf4 import alike
 
 Does = Callable[[Second, Random], None]
-FAULT: dict[str, Fault] = alike({"ATV312": 9, "CHF": 3, "GD200A": 4, "JSCC": 1, "MX2": 3, "PF4": 12, "SN300G5": "OC"})
+FAULT: dict[str, Fault] = alike(
+    {"ATV312": 9, "CHF": 3, "GD200A": 4, "JSCC": 1, "MX2": 3, "PF4": 12, "SN300G5": "OC", "V20": 1, "ACS355": 1}
+)
 OTHER_FAULT: dict[str, Fault] = alike(
-    {"ATV312": 18, "CHF": 2, "GD200A": 5, "JSCC": 2, "MX2": 7, "PF4": 7, "SN300G5": "OV"}
+    {"ATV312": 18, "CHF": 2, "GD200A": 5, "JSCC": 2, "MX2": 7, "PF4": 7, "SN300G5": "OV", "V20": 2, "ACS355": 2}
 )
-STATUS = alike(
-    {"ATV312": 3201, "CHF": 0x1001, "GD200A": 0x2100, "JSCC": 0x2001, "MX2": 0x1000, "PF4": 0x2100, "SN300G5": 0x0010}
-)
+STATUS = alike({
+    "ATV312": 3201, "CHF": 0x1001, "GD200A": 0x2100, "JSCC": 0x2001, "MX2": 0x1000, "PF4": 0x2100, "SN300G5": 0x0010,
+    "V20": 0x006D, "ACS355": 3,
+})  # fmt: skip
 PARAMETER = alike({
     "ATV312": 9001, "CHF": 0x0007, "GD200A": 0x0004, "JSCC": 0x0012, "MX2": 0x144D, "PF4": 0x0025, "PF4M": 0x0130,
-    "PF525": 0x002D, "SN300G5": 0x0200,
+    "PF525": 0x002D, "SN300G5": 0x0200, "V20": 0x000A, "ACS355": 0,
 })  # fmt: skip
 """Before two that its manual lists."""
-WRITES = alike({"ATV312": 0, "CHF": 0x8000, "GD200A": 0x8000, "JSCC": 0, "MX2": 0, "PF4": 0, "SN300G5": 0})
-SEVERAL = {"GD200A": 0x0400}
+WRITES = alike({
+    "ATV312": 0, "CHF": 0x8000, "GD200A": 0x8000, "JSCC": 0, "MX2": 0, "PF4": 0, "SN300G5": 0, "V20": 0,
+    "ACS355": 0x0898,
+})  # fmt: skip
+"""Beside it; of ACS355, whose listed rows are all live or commands, words are written to 2201."""
+SEVERAL = {"GD200A": 0x0400, "V20": 0x0010, "ACS355": 0x0899}
 """Rows on which neither the connection nor the full scale rests."""
-COMMANDS = {"ATV312": 8501, "GD200A": 0x2000, "JSCC": 0x1000}
+LONGER = {"ACS355": 0x0899, "V20": 0x0010}
+"""Where more than two words are read, if not behind `PARAMETER`."""
+COMMANDS = {"ATV312": 8501, "GD200A": 0x2000, "JSCC": 0x1000, "V20": 0x0063}
 """Where commands are, in families that take several words at once."""
 UNUSED = {"SN300G5": 0x0013}
 """A row that the manual lists as unused, between two that can be read."""
@@ -34,6 +43,7 @@ NOWHERE = 0xFFF5
 """An address that no manual has."""
 HIGHEST = alike({
     "ATV312": 247, "CHF": 247, "GD200A": 247, "JSCC": 247, "MX2": 247, "PF4": 247, "PF4M": 127, "SN300G5": 32,
+    "V20": 247, "ACS355": 247,
 })  # fmt: skip
 """Unit addresses."""
 LONG_MS = 400
@@ -188,7 +198,7 @@ def _several(b: Second, chance: Random) -> None:
     _stop(b)
     kind, words = b.types[0], chance.sample(range(1, 500), 4)
     row, command = PARAMETER[kind], COMMANDS.get(kind, 0)
-    asked = [("Reader", row + 1, count) for count in (2, 4, 3)]
+    asked = [("Reader", row + 1 if count == 2 else LONGER.get(kind, row + 1), count) for count in (2, 4, 3)]
     asked += [("Writer", row if count == 1 else SEVERAL.get(kind, row + 1), count) for count in (2, 3, 1)]
     asked += [("Writer", command - at, 1 + at) for at in (1, 2) if command]
     asked += [("Writer", command - at, at) for at in (2, 3) if command]
@@ -651,6 +661,7 @@ def _acknowledged(b: Second, chance: Random) -> None:
 def _few_gone(b: Second, _: Random) -> None:
     """Four or fewer in ten seconds are none."""
     doubled = b.now - b.judge.claims.doubled_us < FORGOTTEN_US
+    doubled = doubled or any(one.o.late_per_1000 for one in b.models)  # late replies may be counted with the few
     if b.block["TheLine.ErrorID"] == FOREIGN and not doubled:
         b.judge.tell(0, "strangers", "a few of their frames, and ErrorID is theirs")
     b.strange, b.strange_ms = False, 0

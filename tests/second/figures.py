@@ -36,11 +36,12 @@ FOREIGN, SHARED = 54, 56
 """Errors of the line: another master seems to be there; a slot has two blocks."""
 EXCHANGE_US = 50_000
 """A request and its reply at 19,200 bit/s, up to 18 ms after it; or three scans, where those are longer."""
-PATH_ROUNDS = {"ATV312": 5, "MX2": 1}
+PATH_ROUNDS = {"ATV312": 5, "MX2": 1, "V20": 2, "ACS355": 13}
 """Rounds of the line by which a start of several writes is longer; a drive gets one write and one read in a round.
 
 MX2 has one write more, its direction. Three writes of ATV312 each wait for a status that was read after them (BBV51701,
 page 10), which is two reads of three: of any five in a row at least three.
+So do three of the six of ACS355, one of which stays for 100 ms.
 """
 TAKEN: dict[str, tuple[tuple[str, ...], int | None]] = {
     "Shared": (("SHARED", "NO_LINE"), SHARED), "Doubled": (("LINE",), None),
@@ -66,6 +67,15 @@ def crowded(bench: "Second") -> bool:
     """Whether references and reads of the running drives have all the line: eight drives in slow scans; or most of them
     are dead, and each has four attempts before it rests."""
     return len(bench.types) > 3 and (bench.ms > 20 or len(bench.deaf) > 3)
+
+
+RAMP_ROUNDS = {"ACS355": 3}
+"""Rounds from the write that runs the motor to the one that lets it follow its reference: ACS550-02, page 246."""
+
+
+def ramp_us(bench: "Second", index: int) -> int:
+    """How much longer than a drive that runs at once this one stands in a start."""
+    return RAMP_ROUNDS.get(bench.types[index], 0) * round_us(bench)
 
 
 def path_us(bench: "Second", index: int) -> int:

@@ -89,11 +89,15 @@ SAYS_RUNNING: dict[str, Callable[[Any, int], bool]] = alike(
         "MX2": lambda one, now: one.SHOWN[0x0F](one, now),  # coil 000FH
         "PF4": lambda one, now: bool(one.LIVE[0x2100](one, now) & 2),  # 2100H: bit 1
         "SN300G5": lambda one, now: bool(one.LIVE[0x0010](one, now) & 1),  # 0010H: bit 0
+        "V20": lambda one, now: bool(one.LIVE[0x006D](one, now) & 4),  # 40110: bit 2
+        "ACS355": lambda one, now: bool(one.LIVE[3](one, now) & 4),  # 40004: bit 2
     }
 )
 SILENT = {13: "no reply yet", 14: "the drive has stopped answering", 52: "replies come too late"}
 """Reasons that speak of no reply in time, by the table of the drive block's page."""
-RAM_ONLY = alike({"ATV312": 0, "CHF": 0x8000, "GD200A": 0x8000, "JSCC": 0, "MX2": 0, "PF4": 0, "SN300G5": 0})
+RAM_ONLY = alike(
+    {"ATV312": 0, "CHF": 0x8000, "GD200A": 0x8000, "JSCC": 0, "MX2": 0, "PF4": 0, "SN300G5": 0, "V20": 0, "ACS355": 0}
+)
 """The bit of an address that leaves EEPROM alone."""
 OFFLINE, NOT_SENT, READ, WRITE = 51, 68, "Reader", "Writer"
 VALUES = ("Value", "Value2", "Value3", "Value4")

@@ -9,6 +9,7 @@ from tests.second.gd200a import Gd200a, Gd200aOptions
 from tests.second.jscc import Jscc, JsccOptions
 from tests.second.mx2 import Mx2, Mx2Options
 from tests.second.pf4 import LaterOptions, Pf4, Pf4m, Pf4Options, Pf40p, Pf400, Pf525
+from tests.second.profiles import V20, Acs355, ProfileOptions
 from tests.second.sn300g5 import Sn300g5, Sn300g5Options
 
 KINDS: dict[str, tuple[Any, Any]] = {
@@ -16,6 +17,7 @@ KINDS: dict[str, tuple[Any, Any]] = {
     "atv": (Atv312, Atv312Options), "mx": (Mx2, Mx2Options),
     "pf": (Pf4, Pf4Options), "gd": (Gd200a, Gd200aOptions), "pf40p": (Pf40p, LaterOptions),
     "pf4m": (Pf4m, LaterOptions), "pf400": (Pf400, LaterOptions), "pf525": (Pf525, LaterOptions),
+    "v20": (V20, ProfileOptions), "acs355": (Acs355, ProfileOptions),
 }  # fmt: skip
 
 

@@ -1,4 +1,5 @@
-"""The matrix at length, `make long WHAT=matrix`: `python -m tests.second.long [--times N] [--only WORDS] [--walks N]`.
+"""The matrix at length, `make long WHAT=matrix`: `python -m tests.second.long [--times N] [--only WORDS] [--walks N]
+[--family NAME]`.
 
 With `--store FILE` it goes on where it was ended; `--part 1` to `--part 4` are the walks of 90 minutes each.
 
@@ -52,9 +53,9 @@ def some(chosen: Sequence[Cell], seed: int) -> list[Outcome]:
     return [run(cell, seed, stations()) for cell in chosen]
 
 
-def walks(first: int, number: int) -> list[Outcome]:
-    """Random walks from a seed on."""
-    return [walk(seed, stations()) for seed in range(first, first + number)]
+def walks(first: int, number: int, family: str = "") -> list[Outcome]:
+    """Random walks from a seed on, of one family where it is named."""
+    return [walk(seed, stations(), family) for seed in range(first, first + number)]
 
 
 def table(outcomes: Sequence[Outcome]) -> str:
@@ -87,6 +88,7 @@ def main() -> int:
     parser.add_argument("--first", type=int, default=0, help="the first seed")
     parser.add_argument("--only", default="", help="cells whose name holds these words")
     parser.add_argument("--walks", type=int, default=2000, help="random walks")
+    parser.add_argument("--family", default="", help="walks of this family alone")
     parser.add_argument("--part", type=int, default=0, help="1 to 4: walks alone, of other seeds in each part")
     parser.add_argument("--jobs", type=int, default=JOBS, help="processes")
     parser.add_argument("--store", type=Path, help="what is done; it is not run again")
@@ -104,8 +106,8 @@ def main() -> int:
                     waiting[pool.submit(some, part, seed)] = name
         for first in range(begin, begin + number, CHUNK):
             count = min(CHUNK, begin + number - first)
-            if (name := f"walks {first} {count}") not in known:
-                waiting[pool.submit(walks, first, count)] = name
+            if (name := f"walks {options.family} {first} {count}".replace("  ", " ")) not in known:
+                waiting[pool.submit(walks, first, count, options.family)] = name
         for each in as_completed(waiting):
             outcomes += each.result()
             _store(options.store, waiting[each], each.result())

@@ -36,6 +36,8 @@ BY_TERMINALS = alike(
         "PF4M": {"run": 1},
         "PF525": {"P046": 2},
         "SN300G5": {"b1_02": 1},
+        "V20": {"P0700": 2},
+        "ACS355": {"1001": 1},
     }
 )
 OWN_SPEED = alike(
@@ -49,6 +51,8 @@ OWN_SPEED = alike(
         "PF4M": {"P108": 0},
         "PF525": {"P047": 1},
         "SN300G5": {"b1_01": 0},
+        "V20": {"P1000": 1},
+        "ACS355": {"1103": 0},
     }
 )
 JOGS = ("CHF", "GD200A")
@@ -95,6 +99,12 @@ OPTIONS: dict[str, tuple[Any, ...]] = {
     "GD200A.coast_stopped": BOTH,
     "PF4.start_acts": ("once", "always"), "PF4.stop_resets": BOTH, "PF4.commands_readable": BOTH,
     "SN300G5.key_cuts_line": BOTH,
+    # with the others a start ends at 0 Hz in one direction, and SpeedOnly stays at 0 Hz: known, for the block to mend
+    "V20.way_at_rest": ("asked",), "V20.before_plc": ("kept", "lost"), "V20.serial": ("in command", "not local"),
+    "V20.on_in_ramp": BOTH, "V20.key_to": ("ready", "inhibited"), "V20.reached_at_rest": BOTH, "V20.signs": BOTH,
+    "V20.speed_alone": ("acts",),
+    "ACS355.ready_us": (0, 100_000), "ACS355.on_in_ramp": BOTH, "ACS355.key_to": ("ready", "inhibited"),
+    "ACS355.reached_at_rest": BOTH, "ACS355.signs": BOTH,
     "SN300G5.run_needs_edge": BOTH, "KeepWord": (0, 0x24), "SN300G5.zero_speed_of": ("output", "shaft"),
 }  # fmt: skip
 LINE = (
@@ -205,10 +215,12 @@ class Run:
         given["late_us"] = 25_000
         if self.cell.state == "coasting":
             given["stop_mode"] = "coast"
-        if like in ("ATV312", "GD200A", "MX2", "PF4"):
+        if like in ("ACS355", "ATV312", "GD200A", "MX2", "PF4", "V20"):
             given["busy_refuses"] = "parameters"  # their manuals have no code of a busy drive
         if not self.by_bus:
             given["settings_act"] = "at once"
+        if family == "V20" and self.cell.mode == "MonitorOnly":
+            given["comm_us"] = None  # nothing feeds it then, as its page says
         return given
 
     # ------------------------------------------------------------ to the state

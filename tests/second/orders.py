@@ -13,12 +13,14 @@ if TYPE_CHECKING:
 
 REFERENCE = alike({
     "ATV312": b"\x06\x21\x36", "CHF": b"\x06\x20\0", "GD200A": b"\x06\x20\1", "JSCC": b"\x06\x10\1",
-    "MX2": b"\x10\0\0", "PF4": b"\x06\x20\1", "SN300G5": b"\x10\0\1",
+    "MX2": b"\x10\0\0", "PF4": b"\x06\x20\1", "SN300G5": b"\x10\0\1", "V20": b"\x06\0\x64",
+    "ACS355": b"\x06\0\1",
 })  # fmt: skip
 """How a write of the reference begins, by the manuals' tables of control data."""
 RESETS = alike({
     "ATV312": (b"\x06\x21\x35", 0x80), "CHF": (b"\x06\x10\0\0\7", 0xFF), "GD200A": (b"\x06\x20\0\0\7", 0xFF),
-    "MX2": (b"\x05\0\3\xff", 0xFF), "PF4": (b"\x06\x20\0", 8),
+    "MX2": (b"\x05\0\3\xff", 0xFF), "PF4": (b"\x06\x20\0", 8), "V20": (b"\x06\0\x63", 0x80),
+    "ACS355": (b"\x06\0\0", 0x80),
 })  # fmt: skip
 """How a reset begins, and a bit of its last byte; of the others there is none."""
 WAYS = alike({"PF4": 0x30, "SN300G5": 3})

@@ -6,6 +6,7 @@ from tests.second import pairs
 from tests.second.events import AIMED, EVENTS, LONG
 from tests.second.matrix import JOGS, MODES, STATES, Cell, row_of
 from tests.second.pf4 import VARIANTS
+from tests.second.profiles import FAMILIES as PROFILES
 from tests.second.station import MIXED, NEWER
 
 SIZE = 120
@@ -70,10 +71,10 @@ def aimed() -> list[tuple[Cell, int]]:
 
 
 def varied(found: list[tuple[Cell, int]]) -> list[tuple[Cell, int]]:
-    """The cells of the PowerFlex 4, each for one of its variants, and those of SN300G5, each for a newer family."""
+    """The cells of the PowerFlex 4, each for one of its variants; of SN300G5 and JSCC, each for a newer family."""
     return [
         (replace(cell, family=others[at % len(others)]), seed)
-        for family, others in (("PF4", VARIANTS), ("SN300G5", NEWER))
+        for family, others in (("PF4", VARIANTS), ("SN300G5", NEWER), ("JSCC", PROFILES))
         for at, (cell, seed) in enumerate(each for each in found if each[0].family == family)
     ]
 

@@ -33,8 +33,10 @@ STOPPING, STARTS, RUNNING = 0, (2, 3), 4
 """States: a stop is sent, or standstill is not proved; a start is sent; it runs."""
 YOUNG = 3
 """Scans."""
-OWN_MAXIMUM = ("ATV312", "GD200A")
+OWN_MAXIMUM = ("ATV312", "GD200A", "V20")
 """Families that show their maximum frequency."""
+WAYLESS = ("ACS355",)
+"""Families whose status has no bit of the direction."""
 LAG_US = 300_000
 """What an age of words does not say: the reply's way, and the scan in which it is shown."""
 LAST, FIRST = tuple(f"FaultBack{i}" for i in range(1, 9)), ("FirstFaultHz", "FirstFaultA", "FirstFaultV")
@@ -197,7 +199,8 @@ class Shown:
         faulty_us = self.judge.units[index].fault[True]  # the word of a fault may say anything
         if known and bench.now - max(self.turned_us, faulty_us) > lag:
             shown = bench.out("Reverse", index)
-            self._once("direction", bad=shown != self.reverse, seen=(shown, "of", self.reverse))
+            reverse = self.reverse and self.kind not in WAYLESS
+            self._once("direction", bad=shown != reverse, seen=(shown, "of", reverse))
 
     def _faults(self) -> None:
         """The last faults move on by one; more than one in the time between two looks is not looked at."""

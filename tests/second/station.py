@@ -9,6 +9,7 @@ from collections.abc import Sequence
 from functools import cache
 
 from tests.blocks.library import sources
+from tests.second import profiles
 from tests.second.pf4 import VARIANTS
 from tests.shapes import shapes
 from tests.shipped import drives
@@ -27,7 +28,7 @@ SIZES = (1, 3, 8)
 MIXED = ("CHF", "GD200A", "JSCC", "PF4", "SN300G5")
 """Families that are together on a line."""
 NEWER = ("ATV312", "MX2")
-ALONE = (*NEWER, *VARIANTS)
+ALONE = (*NEWER, *profiles.FAMILIES, *VARIANTS)
 FAMILIES = (*MIXED, *ALONE)
 RTU_ONLY = ("PF4", "SN300G5", *ALONE)
 """Drives without MODBUS ASCII."""

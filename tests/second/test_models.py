@@ -87,3 +87,41 @@ def test_others_frames_and_broadcasts_get_no_reply() -> None:
     for unit in (0, 1, 2, 4):
         assert one.receive(rtu(bytes([unit, 6, 0x10, 0, 0, 1])), 100_000 * (unit + 1)) == []
     assert one.commanded == "run_forward"
+
+
+PATHS = [
+    # the start of H page 165, with half of REF1 in reverse; OFF1; OFF3, after which it is inhibited; no 0006H before
+    ("acs355", "0001D8F0 00000006 00000007 0000000F 0000002F 0000006F", 3, 0x1337, -25.0),
+    ("acs355", "0001D8F0 00000006 00000007 0000000F 0000002F 0000006F 0000006E", 3, 0x1231, 0.0),
+    ("acs355", "0001D8F0 00000006 00000007 0000000F 0000002F 0000006F 0000006B 0000006F", 3, 0x1270, 0.0),
+    ("acs355", "0001D8F0 00000007 0000000F 0000006F", 3, 0x1270, 0.0),
+    # G pages 194 to 199: ON is a rising edge behind 047EH; without bit 10 the word is ignored; bit 11 turns it round
+    ("v20", "00642000 0063047E 0063047F", 0x6D, 0xEB37, 25.0),
+    ("v20", "00642000 0063047E 0063047F 00630000", 0x6D, 0xEB37, 25.0),
+    ("v20", "00642000 00630C7E 00630C7F", 0x6D, 0xAB37, -25.0),
+    ("v20", "00642000 0063047E 0063047F 0063047E", 0x6D, 0xEA31, 0.0),
+    ("v20", "00642000 0063047F", 0x6D, 0xEA70, 0.0),
+]
+
+
+@pytest.mark.parametrize(("kind", "words", "status", "shown", "hz"), PATHS)
+def test_a_control_word_leads_through_its_chart(kind: str, words: str, status: int, shown: int, hz: float) -> None:
+    one, now = drive(kind, comm_us=None, ready_us=100_000 * (kind == "acs355")), 1_000_000
+    for body in (bytes.fromhex(f"0106{each}") for each in words.split()):
+        assert [text for _, text in one.receive(rtu(body), now)] == [rtu(body)]
+        now += 10_000_000 if body[5] in (0x6F, 0x7F, 0x6E, 0x6B) else 200_000
+    assert one.shaft_hz(now + 10_000_000) == hz
+    ((_, reply),) = one.receive(rtu(bytes((1, 3, 0, status, 0, 1))), now + 10_000_000)
+    assert int.from_bytes(reply[3:5], "big") == shown
+
+
+def test_process_data_alone_feed_a_v20() -> None:
+    # V page 115: F72 after P2014, once process data have come, and not by reads
+    for words, reads, tripped in (("", True, False), ("0063047E", True, True), ("0063047E", False, True)):
+        one = drive("v20", comm_us=2_000_000)
+        for body in (bytes.fromhex(f"0106{each}") for each in words.split()):
+            one.receive(rtu(body), 1_000_000)
+        for at in range(1_500_000, 3_500_000, 500_000) if reads else ():
+            one.receive(rtu(bytes.fromhex("0103006D0001")), at)
+        one.advance(3_500_000)
+        assert one.fault == (72 if tripped else None)

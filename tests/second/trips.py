@@ -17,6 +17,8 @@ ABLE = alike({
     "GD200A": (True, True, False, True, True),  # 2000H: 1 to 8, page 139
     "MX2": (True, False, False, False, True),  # coils 0001H to 0004H, I585 page 6-27
     "PF4": (True, False, False, False, True),  # 2000H: bits 0 to 5, page C-4; a jog is no command of its map
+    "V20": (True, False, True, True, True),  # 40100: bits 11, 2, 1, 7
+    "ACS355": (True, False, True, True, True),  # 40001: bits 2, 1, 7; a negative reference
     "SN300G5": (True, False, False, False, False),  # 0000H: bits 0 and 1; the others are terminals
 })  # fmt: skip
 

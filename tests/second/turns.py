@@ -11,7 +11,9 @@ from tests.second.pf4 import alike
 if TYPE_CHECKING:
     from tests.second.wire import Exchange, Wire
 
-CONTROL = alike({"CHF": 0x1000, "GD200A": 0x2000, "JSCC": 0x1000, "PF4": 0x2000, "SN300G5": 0})
+CONTROL = alike(
+    {"CHF": 0x1000, "GD200A": 0x2000, "JSCC": 0x1000, "PF4": 0x2000, "SN300G5": 0, "V20": 0x0063, "ACS355": 0}
+)
 """Where stops are written."""
 SILENCE_US = {True: 10_000, False: 1750}
 """Between a frame and the next request, by whether JSCC is on the line: its manual, and 3.5 characters."""

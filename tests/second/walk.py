@@ -1,6 +1,6 @@
 """Random walks over events on lines of second models, with the judge of the matrix.
 
-`python -m tests.second.walk SEED` walks a seed again.
+`python -m tests.second.walk SEED` walks a seed again; with a family behind it, that of this family.
 """
 
 import sys
@@ -52,16 +52,18 @@ class Walk(Run):
             b.run(self.chance.choice([0, 100, 2000]))
 
 
-def walk(seed: int, stations: Library | None = None) -> Outcome:
-    """Walk a seed."""
+def walk(seed: int, stations: Library | None = None, family: str = "") -> Outcome:
+    """Walk a seed; with a family that of its own, which is none of those without."""
     chance = Random(f"second {seed}")
     cell = chance.choice([each for each in cells() if each.event not in (*LONG, *AIMED) and each.family in MIXED])
     if cell.family == "PF4":
         cell = replace(cell, family=("PF4", *VARIANTS)[seed % 5])
+    if family:
+        cell = replace(cell, family=family, mode="full control" if cell.mode == "jog" else cell.mode)
     return Walk(cell, seed, stations).go()
 
 
 if __name__ == "__main__":
-    outcome = walk(int(sys.argv[1]))
+    outcome = walk(int(sys.argv[1]), family="".join(sys.argv[2:]))
     print(outcome.cell)
     print("\n".join(outcome.told) or outcome.not_reached or "every rule has held")

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from itertools import takewhile
 from typing import TYPE_CHECKING, Any
 
+from tests.second.claims import ONE_WORD
 from tests.second.figures import ASTRAY, ATTEND_US, AWAY
 from tests.second.frames import LAST_READ, runs
 from tests.second.observer import any_of
@@ -24,7 +25,9 @@ AHEAD_MS = 13
 """By how much a reply may be taken for shorter while the wire is free: the silence that the port keeps, in whole ms."""
 SETTLED_US = 3_000_000
 """Since the last restart, or since a drive could be reached again."""
-SPEED = alike({"CHF": 0x3000, "GD200A": 0x3000, "JSCC": 0x2000, "PF4": 8451, "SN300G5": 0x0021})
+SPEED = alike(
+    {"CHF": 0x3000, "GD200A": 0x3000, "JSCC": 0x2000, "PF4": 8451, "SN300G5": 0x0021, "V20": 0x0017, "ACS355": 0x0066}
+)
 """Where the output frequency is."""
 ENOUGH, MANY, DEAD_US = 3, 4, 1_600_000
 """A drive counts as one that answers after three good replies in a row, and as dead after four requests without one
@@ -38,9 +41,10 @@ COUNTERS = ("Good", "Timeouts", "Refusals", "Bad", "Late", "Fresh", "Replies")
 MOST = 255
 EXCEPTION = 0x80
 """What a refusal adds to the function code, in most families."""
-STATUS = alike(
-    {"ATV312": 3201, "CHF": 0x1001, "GD200A": 0x2100, "JSCC": 0x2001, "MX2": 0x1000, "PF4": 0x2100, "SN300G5": 0x0010}
-)
+STATUS = alike({
+    "ATV312": 3201, "CHF": 0x1001, "GD200A": 0x2100, "JSCC": 0x2001, "MX2": 0x1000, "PF4": 0x2100, "SN300G5": 0x0010,
+    "V20": 0x006D, "ACS355": 3,
+})  # fmt: skip
 """Where the status begins."""
 
 
@@ -139,7 +143,10 @@ class Wire:
             self._shown(last)
         if last.replies:
             least, most = min(judge.late) // 1000, max(judge.late) // 1000
-            idle = self.idle_ms > max(IDLE_MS, most) + most - least  # its scans may have been longer
+            waits = (
+                most if self.bench.metered and self.bench.types[0] in ONE_WORD else 0
+            )  # behind a meter, for its block
+            idle = self.idle_ms > max(IDLE_MS, most) + most - least + waits  # its scans may have been longer
             judge.once(0, "idle", bad=self.somebody() and idle, seen=(self.idle_ms, "ms"))
         elif last.index < len(judge.units):
             waited, least = (now - last.end) // 1000, min(last.waits_ms, self.waits_ms(last.index))
