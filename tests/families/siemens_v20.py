@@ -1,8 +1,8 @@
 """What pages of the SINAMICS V20 (07/2012) and G120C (G) say, typed from them by hand; no map was read for it."""
 
 STATUS = 0x006D
-FACES = {"stands": 0x0200, "ramps": 0x4204, "runs": 0x4304, "reverse": 0x0304, "fault": 0x0208, "warning": 0x0280}
-"""Bit 2 operation enabled, 3 fault, 7 alarm, 8 deviation in tolerance, 9 master control requested, E clockwise."""
+FACES = {"stands": 0x0200, "ramps": 0x0204, "runs": 0x0304, "reverse": 0x0304, "fault": 0x0208, "warning": 0x0280}
+"""Bit 2 operation enabled, 3 fault, 7 alarm, 8 deviation in tolerance, 9 master control requested; E is not used."""
 CHART = 0x0001
 FREQUENCY = 0x0017
 COUNTS_PER_HZ = 100
@@ -78,12 +78,12 @@ COMMANDS = {
 REFERENCE = "0064 fraction_of_full_scale 16384"
 SHOWS = {
     "running": "006D.2=1",
-    "reverse": "006D&4004=0004",
+    "reverse": "0017<0",
     "at_speed": "006D&0104=0104",
     "warning": "006D.7=1",
     "fault": "006D.3=1",
 }
-"""G page 199, ZSW1."""
+"""G page 199, ZSW1; 40024 has a sign by page 112, while bit 14 of ZSW1 says nothing at 0."""
 STANDSTILL = "006D.2=0 0017=0"
 NEEDED = {"P0003": 3, "P0700": 5, "P1000": 5, "P2023": 2}
 """Page 111."""

@@ -99,10 +99,10 @@ OPTIONS: dict[str, tuple[Any, ...]] = {
     "GD200A.coast_stopped": BOTH,
     "PF4.start_acts": ("once", "always"), "PF4.stop_resets": BOTH, "PF4.commands_readable": BOTH,
     "SN300G5.key_cuts_line": BOTH,
-    # with the others a start ends at 0 Hz in one direction, and SpeedOnly stays at 0 Hz: known, for the block to mend
-    "V20.way_at_rest": ("asked",), "V20.before_plc": ("kept", "lost"), "V20.serial": ("in command", "not local"),
-    "V20.on_in_ramp": BOTH, "V20.key_to": ("ready", "inhibited"), "V20.reached_at_rest": BOTH, "V20.signs": BOTH,
-    "V20.speed_alone": ("acts",),
+    "V20.way_at_rest": ("asked", "clockwise", "counterclockwise"), "V20.before_plc": ("kept", "lost"),
+    "V20.serial": ("in command", "not local"),
+    "V20.on_in_ramp": BOTH, "V20.key_to": ("ready", "inhibited"), "V20.reached_at_rest": BOTH,
+    "V20.speed_alone": ("acts",),  # else the motor stays at 0 Hz with SpeedOnly: known, for the block to mend
     "ACS355.ready_us": (0, 100_000), "ACS355.on_in_ramp": BOTH, "ACS355.key_to": ("ready", "inhibited"),
     "ACS355.reached_at_rest": BOTH, "ACS355.signs": BOTH,
     "SN300G5.run_needs_edge": BOTH, "KeepWord": (0, 0x24), "SN300G5.zero_speed_of": ("output", "shaft"),

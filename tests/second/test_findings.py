@@ -148,3 +148,13 @@ def test_a_motor_in_reverse_stops_whatever_sign_its_monitors_have(family: str, s
         assert not (b.shows("StopConfirmed") and turns(b))
     assert b.shows("StopConfirmed")
     assert b.contact
+
+
+@pytest.mark.parametrize("pin", ["RunForward", "RunReverse"])
+@pytest.mark.parametrize("way_at_rest", ["clockwise", "counterclockwise"])
+def test_a_v20_that_is_magnetised_at_0_hz_shows_no_way_yet(pin: str, way_at_rest: str) -> None:
+    # bit 14 of its status says nothing at 0 Hz: a start in one of both ways was taken for one that others have turned
+    b = Second("V20", options={"V20": {"comm_us": None, "start_us": 1_000_000, "way_at_rest": way_at_rest}})
+    assert b.wait(lambda: b.shows("Ready"), 9000)
+    b.put(0, **{pin: True})
+    assert b.wait(lambda: b.shows("AtSpeed"), 6000), b.told()
