@@ -525,7 +525,7 @@ def test_the_page_of_swapping_says_whose_stop_moves_a_drive_of_another_make() ->
     text = (FOLDER / "Swapping.md").read_text("utf-8")
     assert "| JSCC | CHF | **motion**: 1000H = 0003H, there its jog forward | by 2001H, a value that only it" in text
     assert (
-        "| PF525 | GD20, GD200A, PI130, VM600 | **motion**: 2000H = 0001H, there its run forward | by 007CH, its own unit"
+        "| PF525 | GD20, GD200A, PI130, VM600 | **motion**: 2000H = 0001H, there its run forward | by 007CH, its own"
         in text
     )
     drive = shapes()["active_low"]

@@ -153,7 +153,7 @@ def _serves(first: First, drive: Drive, other: Drive) -> bool:
 
 
 def _crawls(drive: Drive, other: Drive) -> bool:
-    """Whether the worst that stops do at a drive of another family is to ask it for a hundredth of its speed at most."""
+    """Whether stops ask a drive of another family for a hundredth of its speed at most, and do nothing worse."""
     reference = other.operation.reference
     full = reference.full_scale or (PERCENT_COUNTS if reference.means == "percent_of_maximum" else 0)
     harms = [each for each in stops_at(drive, other) if each.means in HARMS]
