@@ -13,7 +13,8 @@ POWERFLEX = ("PF4", *VARIANTS)
 MOTION = {*((one, "GD200A") for one in POWERFLEX), *(("GD200A", one) for one in POWERFLEX), ("JSCC", "CHF")}
 """2000H = 1 runs a GD200A; 5 is stop and jog, 6 start and jog of a PowerFlex; 1000H = 3 jogs a CHF."""
 OTHER = {
-    *((one, "CHF") for one in (*POWERFLEX, "GD200A")), *(("SN300G5", one) for one in ("JSCC", "GD200A", "MX2")),
+    *((one, "CHF") for one in (*POWERFLEX, "GD200A")), *(("SN300G5", one) for one in ("JSCC", "GD200A", "MX2", "V20")),
+    *(("ACS355", one) for one in ("CHF", "GD200A", "JSCC", "MX2", "V20")), ("V20", "CHF"), ("V20", "JSCC"),
 }  # fmt: skip
 """2000H is the reference of a CHF; 0000H a parameter of JSCC and GD200A, and the frequency of an MX2."""
 

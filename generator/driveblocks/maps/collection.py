@@ -67,7 +67,7 @@ def _shared_folders(sources: list[Source]) -> list[Problem]:
 
 
 def _shared_plates(sources: list[Source]) -> list[Problem]:
-    """A nameplate is that of one drive."""
+    """A nameplate is that of one drive; a copy of a shipped map, in another folder, may have its."""
     return [
         Problem(
             str(source.path),
@@ -78,6 +78,7 @@ def _shared_plates(sources: list[Source]) -> list[Problem]:
         for index, source in enumerate(sources)
         for one in source.drive.models
         for other in sources[:index]
+        if other.path.parent == source.path.parent
         for each in other.drive.models
         if one.plate.meets(each.plate)
     ]

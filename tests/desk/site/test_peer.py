@@ -121,7 +121,7 @@ def commissioned(stem: str, folder: Path, **words: Any) -> kept.Kept:
 @pytest.mark.parametrize(
     ("stem", "where"),
     [
-        *((stem, "tcp") for stem in MAPS),
+        *(pytest.param(stem, "tcp", marks=() if stem == "invt_chf" else pytest.mark.thorough) for stem in MAPS),
         pytest.param(
             "jscc", "pty", marks=pytest.mark.skipif(sys.platform == "win32", reason="Windows has no pseudo-terminals")
         ),
