@@ -1,7 +1,7 @@
 """From a fresh clone to a result in one command, with nothing but Python 3.11 or newer and git.
 
     python3 generator/bootstrap.py demo    set up, then run the main job on the drives of vendor_maps/
-    python3 generator/bootstrap.py test    set up, then run the tests that continuous integration runs: five minutes
+    python3 generator/bootstrap.py test    set up, then run the tests that continuous integration runs: six minutes
     python3 generator/bootstrap.py test --all    every test, and coverage: an hour
     python3 generator/bootstrap.py test --all --continue    ... from where it was stopped, or where a part failed
 

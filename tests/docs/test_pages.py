@@ -470,7 +470,6 @@ def test_the_block_of_the_example_does_what_the_picture_shows(family: str) -> No
 
 
 @every_family
-@pytest.mark.every_family
 def test_the_example_starts_by_one_press_and_stops_by_its_button(family: str) -> None:
     story = Story(family, "Motor")
     story.run(6000)

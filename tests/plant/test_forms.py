@@ -65,7 +65,9 @@ def test_codesys(name: str, ladder: bool, check: Callable[[Made], None]) -> None
     check(Made("codesys", path, File(made(name, "codesys")[f"{path}.xml"], *DIALECTS["codesys"]), (text,), ()))
 
 
-@pytest.mark.parametrize("name", PLANTS)
+@pytest.mark.parametrize(
+    "name", [pytest.param(PLANTS[0]), *(pytest.param(each, marks=pytest.mark.thorough) for each in PLANTS[1:])]
+)
 def test_beremiz(name: str) -> None:
     own = [meant(name, "linux", ladder=ladder) for ladder in (False, True)]
     stock, plant = forms.stocked(example(name), [ENGLISH]), example(name)
