@@ -717,7 +717,7 @@ class Claims:
         self._once(0, "line", bad=good and error not in LINE_ERRORS and not old, seen=("ErrorID", error))
         strange = block["TheLine.ForeignFrames"]
         assert isinstance(strange, int)
-        slow = bench.ms > USUAL_SCAN_MS  # then a late reply is heard behind the next request
+        slow = bench.ms > USUAL_SCAN_MS  # then a late reply is heard after the next request
         most = LATE_ECHOES * (1 + slow) if any(one.o.late_per_1000 for one in bench.models) else 0
         forgotten = good and now - began > CALM_US + 1_000_000  # echoes that a restart has cut in two
         self._once(0, "strange", bad=forgotten and strange > most, seen=(strange, "foreign frames"))

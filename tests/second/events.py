@@ -34,7 +34,7 @@ WRITES = alike({
 SEVERAL = {"GD200A": 0x0400, "V20": 0x0010, "ACS355": 0x0899}
 """Rows on which neither the connection nor the full scale rests."""
 LONGER = {"ACS355": 0x0899, "V20": 0x0010}
-"""Where more than two words are read, if not behind `PARAMETER`."""
+"""Where more than two words are read, if not after `PARAMETER`."""
 COMMANDS = {"ATV312": 8501, "GD200A": 0x2000, "JSCC": 0x1000, "V20": 0x0063}
 """Where commands are, in families that take several words at once."""
 UNUSED = {"SN300G5": 0x0013}

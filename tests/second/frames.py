@@ -12,8 +12,11 @@ def _entry(byte: int) -> int:
 
 RUNS = {"CHF": (1, 2, 3, 4), "JSCC": (1, 2)}
 """Values of 1000H: CHF lines 319 to 326, JSCC lines 105 to 108."""
-CONTROL_WORDS = {"V20": (0x63, 0x40F), "ACS355": (0, 0xF)}
-"""Where the control word is, and the bits that run: ON by the PLC, G120C page 195; operation, ACS355 page 319."""
+CONTROL_WORDS = {"ATV312": (8501, 0xF), "V20": (0x63, 0x40F), "ACS355": (0, 0xF)}
+"""Where the control word is, and the bits that run.
+
+Operation enabled, ATV312 page 12; ON by the PLC, G120C page 195; operation, ACS355 page 319.
+"""
 LAST_READ = 4
 """Function codes up to this one read registers, or bits."""
 TABLE = tuple(_entry(byte) for byte in range(256))
@@ -44,10 +47,8 @@ def ascii_(body: bytes) -> bytes:
 
 
 @lru_cache(maxsize=1 << 16)
-def runs(kind: str, body: bytes) -> bool:  # noqa: PLR0911  (one for each make)
+def runs(kind: str, body: bytes) -> bool:
     """Whether a request without checksum makes a drive of this make run or jog."""
-    if kind == "ATV312":
-        return body[1:4] == b"\x06\x21\x35" and body[5] & 15 == 15  # CMD: enable operation, page 12
     if kind == "MX2":
         return body[1:5] == b"\x05\0\0\xff"  # the run coil, I585 page 6-11
     if kind.startswith("PF"):
@@ -56,7 +57,7 @@ def runs(kind: str, body: bytes) -> bool:  # noqa: PLR0911  (one for each make)
         return body[1:4] == b"\x06\x20\0" and body[4:6] <= b"\0\4"  # 2000H: 1 to 4, page 139
     if kind in CONTROL_WORDS:
         address, bits = CONTROL_WORDS[kind]
-        return body[1:4] == bytes((6, 0, address)) and (body[4] << 8 | body[5]) & bits == bits
+        return body[1:4] == bytes((6, *divmod(address, 256))) and (body[4] << 8 | body[5]) & bits == bits
     if kind == "SN300G5":
         return body[1:4] == b"\x10\0\0" and bool(body[8] & 3)  # 0000H: bits 0 and 1
     return body[1:4] == b"\x06\x10\0" and body[5] in RUNS[kind]

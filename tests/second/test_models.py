@@ -95,7 +95,7 @@ PATHS = [
     ("acs355", "0001D8F0 00000006 00000007 0000000F 0000002F 0000006F 0000006E", 3, 0x1231, 0.0),
     ("acs355", "0001D8F0 00000006 00000007 0000000F 0000002F 0000006F 0000006B 0000006F", 3, 0x1270, 0.0),
     ("acs355", "0001D8F0 00000007 0000000F 0000006F", 3, 0x1270, 0.0),
-    # G pages 194 to 199: ON is a rising edge behind 047EH; without bit 10 the word is ignored; bit 11 turns it round
+    # G pages 194 to 199: ON is a rising edge after 047EH; without bit 10 the word is ignored; bit 11 turns it round
     ("v20", "00642000 0063047E 0063047F", 0x6D, 0xEB37, 25.0),
     ("v20", "00642000 0063047E 0063047F 00630000", 0x6D, 0xEB37, 25.0),
     ("v20", "00642000 00630C7E 00630C7F", 0x6D, 0xAB37, -25.0),

@@ -1,6 +1,6 @@
 """Random walks over events on lines of second models, with the judge of the matrix.
 
-`python -m tests.second.walk SEED` walks a seed again; with a family behind it, that of this family.
+`python -m tests.second.walk SEED` walks a seed again; with the name of a family after it, one of that family.
 """
 
 import sys

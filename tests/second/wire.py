@@ -145,7 +145,7 @@ class Wire:
             least, most = min(judge.late) // 1000, max(judge.late) // 1000
             waits = (
                 most if self.bench.metered and self.bench.types[0] in ONE_WORD else 0
-            )  # behind a meter, for its block
+            )  # after a meter, for its block
             idle = self.idle_ms > max(IDLE_MS, most) + most - least + waits  # its scans may have been longer
             judge.once(0, "idle", bad=self.somebody() and idle, seen=(self.idle_ms, "ms"))
         elif last.index < len(judge.units):
